@@ -1,0 +1,31 @@
+#include "recordings/base/parallel.h"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <memory>
+#include <numeric>
+#include <vector>
+
+namespace inlay {
+
+void set_thread_count(int threads) {
+    static std::unique_ptr<tbb::global_control> limit;
+    limit.reset();
+    if (threads > 0) {
+        limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                      std::size_t(threads));
+    }
+}
+
+void parallel_for(int count, const std::function<void(int)>& body) {
+    tbb::parallel_for(0, count, [&](int i) { body(i); });
+}
+
+double ordered_sum(int count, const std::function<double(int)>& term) {
+    std::vector<double> terms(std::size_t(count), 0.0);
+    parallel_for(count, [&](int i) { terms[std::size_t(i)] = term(i); });
+    return std::accumulate(terms.begin(), terms.end(), 0.0);
+}
+
+}  // namespace inlay

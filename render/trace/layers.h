@@ -1,0 +1,61 @@
+// What the sampler hands to the filter, and the filter to the compositor: the terms of Mehta 2015,
+// eq. 6.2, per pixel. Symbols as there: E irradiance, k albedo / pi, M coverage by real surfaces; R
+// = real geometry alone, RV = real and virtual.
+#pragma once
+
+#include "recordings/base/color.h"
+#include "recordings/base/image.h"
+#include "recordings/base/lens.h"
+#include "recordings/base/pose.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <optional>
+
+namespace inlay {
+
+/// Irradiances of one kind of light (direct or indirect), each the mean over its own samples: the
+/// primary samples on real surfaces for the first two, those on virtual ones for the third.
+struct Irradiance {
+    Image<Rgb> e_r;           // real geometry alone, on real surfaces
+    Image<Rgb> e_rv_real;     // real and virtual geometry, on real surfaces
+    Image<Rgb> e_rv_virtual;  // real and virtual geometry, on virtual surfaces
+};
+
+/// The surface that receives light at a pixel, mean over the primary samples that met its kind
+/// (real or virtual), with what the filter needs to know about the geometry around it.
+struct Receiver {
+    Image<std::uint32_t> object;  // 0: no sample of this kind here; else 1 + the object's index
+    Image<glm::vec3> position;    // m, world
+    Image<glm::vec3> normal;      // unit, world
+    Image<float>
+        occluder_direct;  // largest cos/r (1/m) over shadow rays that were blocked, 0: none
+    Image<float> occluder_indirect;  // largest cos/r (1/m) over indirect rays that hit, 0: none
+};
+
+/// Per-pixel Monte Carlo estimates of one frame, with the camera that saw them.
+struct NoisyLayers {
+    Lens lens;
+    Pose world_from_camera;
+    int samples = 0;  // per pixel in all: primary x secondary
+    Image<float> m;   // M: share of the primary samples that met real surfaces or nothing, 0..1
+    Image<Rgb> k_v;   // k_V: mean albedo / pi over the samples on virtual surfaces
+    Image<Rgb> s_rv;  // S_RV: mean glossy radiance over the samples on virtual surfaces
+    Image<float> glossy_bandwidth;  // B_rho (1/rad) of the glossy lobe, 0: no glossy surface here
+    Irradiance direct, indirect;
+    Receiver real;                      // R and RV together: the larger cos/r of both modes
+    Receiver virtual_;                  // real geometry counts as occluder too
+    std::uint64_t dropped_samples = 0;  // non-finite ones, left out of every mean
+};
+
+/// The same terms after filtering, which is what eq. 6.2 combines.
+struct Layers {
+    Image<float> m;
+    Image<Rgb> k_v, s_rv;
+    Irradiance direct, indirect;
+    Image<float> bandwidth_direct,
+        bandwidth_indirect;  // 1/m, of the kind that covers more of the pixel
+};
+
+}  // namespace inlay
