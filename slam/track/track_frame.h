@@ -1,0 +1,45 @@
+// Coarse-to-fine frame-to-model ICP: where the camera is.
+#pragma once
+
+#include "recordings/base/surface_map.h"
+
+#include <span>
+#include <vector>
+
+namespace inlay {
+
+enum class TrackingStatus { tracked, weak, lost };
+
+struct TrackResult {
+    Pose world_from_camera;
+    TrackingStatus status = TrackingStatus::lost;
+    float inlier_share = 0;  // 0..1 of the points that fall on the model
+    float rms_residual = 0;  // m, over the inliers
+    int iterations = 0;
+};
+
+struct TrackSettings {
+    int levels = 3;                  // of the pyramid, each half as large
+    int iterations = 12;             // at most, per level
+    float coarse_distance = 0.15f;   // m, largest distance of a pair at the coarsest level
+    float fine_distance = 0.04f;     // m, at the finest level
+    float largest_angle = 0.6f;      // rad, between the normals of a pair
+    float degenerate = 1e-3f;        // share of the mean information below which a direction
+                                     // is not moved
+    float tracked_share = 0.5f;      // inlier share for `tracked`
+    float weak_share = 0.25f;        // inlier share for `weak`; below: lost
+    float least_overlap = 0.1f;      // share of points on the model; below: lost
+    float largest_residual = 0.02f;  // m, rms; above: lost
+};
+
+/// Throws Error that names the setting which is out of range.
+void validate(const TrackSettings& settings);
+
+/// Finds the camera that saw `observed` (a pyramid, finest first; its poses are not used) in the
+/// frame of `model`, from each of `starts` (world_from_camera): the coarsest level is solved from
+/// each, and the start that explains most points is refined. Directions in which the views do not
+/// constrain the motion stay as the start had them (Zhang, Kaess and Singh 2016, Sec. IV).
+TrackResult track_frame(std::span<const SurfaceMap> observed, const SurfaceMap& model,
+                        std::span<const Pose> starts, const TrackSettings& settings);
+
+}  // namespace inlay

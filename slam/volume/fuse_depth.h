@@ -1,0 +1,34 @@
+// Adds one depth image, with its colors, to the volume.
+#pragma once
+
+#include "recordings/base/color.h"
+#include "recordings/base/image.h"
+#include "recordings/base/lens.h"
+#include "recordings/base/pose.h"
+#include "slam/volume/voxel_volume.h"
+
+namespace inlay {
+
+struct FusionSettings {
+    float voxel_size = 0.008f;   // m
+    float truncation = 0.032f;   // m, half-width of the signed-distance band
+    float max_weight = 128.0f;   // observations; beyond it the mean slides
+    float full_weight_z = 1.0f;  // m; a measurement beyond it counts (this / z)^2
+    float least_cosine = 0.15f;  // surfaces seen at a more grazing angle are not fused
+};
+
+/// Throws Error that names the setting which is out of range.
+void validate(const FusionSettings& settings);
+
+/// An empty volume.
+VoxelVolume make_volume(const FusionSettings& settings);
+
+/// Folds a cleaned depth image (m, 0 = not measured) into every voxel within the truncation of the
+/// seen surface or in front of it: a weighted running mean of the distance to the surface's tangent
+/// plane. Curless and Levoy 1996, eq. 3 and 4; differs: the weight is capped, and it falls with
+/// distance and obliqueness as a structured-light camera's accuracy does. `color` may be empty,
+/// else it is registered to `depth`. Same bytes for any number of threads.
+void fuse_depth(VoxelVolume& volume, const Image<float>& depth, const Image<EncodedRgb>& color,
+                const Lens& lens, const Pose& world_from_camera, const FusionSettings& settings);
+
+}  // namespace inlay
