@@ -1,0 +1,80 @@
+#include "render/sample/environment_sampler.h"
+
+#include "recordings/base/check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace inlay {
+namespace {
+
+void check_texels(const Image<Rgb>& map) {
+    require(!map.empty(), "the environment map has no pixels");
+    for (int y = 0; y < map.height; ++y) {
+        for (int x = 0; x < map.width; ++x) {
+            const Rgb& c = map(x, y);
+            const bool good = c.r >= 0 && c.g >= 0 && c.b >= 0 && std::isfinite(c.r + c.g + c.b);
+            require(good, "environment map, texel (" + std::to_string(x) + ", " +
+                              std::to_string(y) + "): radiance must be finite and not negative");
+        }
+    }
+}
+
+}  // namespace
+
+EnvironmentSampler make_environment_sampler(EnvironmentMap map) {
+    const Image<Rgb>& radiance = map.radiance;
+    check_texels(radiance);
+    EnvironmentSampler sampler;
+    std::vector<double> row_weights;
+    bool black = true;
+    for (const Rgb& c : radiance.pixels)
+        black = black && luminance(c) <= 0;
+    for (int y = 0; y < radiance.height; ++y) {
+        std::vector<double> weights;
+        for (const Rgb& c : radiance.row(y))
+            weights.push_back(black ? 1.0 : luminance(c));
+        sampler.texels.push_back(make_discrete_table(weights));
+        row_weights.push_back(sampler.texels.back().total * texel_solid_angle(radiance, y));
+    }
+    sampler.rows = make_discrete_table(row_weights);
+    if (!black) sampler.mean_luminance = float(sampler.rows.total / (4 * std::numbers::pi));
+    sampler.map = std::move(map);
+    return sampler;
+}
+
+LightSample sample_environment(const EnvironmentSampler& sampler, glm::vec2 u) {
+    const Image<Rgb>& radiance = sampler.map.radiance;
+    const DiscreteSample row = sample_discrete(sampler.rows, u.x);
+    const DiscreteSample column = sample_discrete(sampler.texels[std::size_t(row.index)], u.y);
+    const double pdf =
+        row.probability * column.probability / texel_solid_angle(radiance, row.index);
+    if (!(pdf > 0)) return {glm::vec3(0, 1, 0), Rgb(0), 0};
+
+    const double top = std::cos(std::numbers::pi * row.index / radiance.height);
+    const double bottom = std::cos(std::numbers::pi * (row.index + 1) / radiance.height);
+    const double cosine = top + row.rest * (bottom - top);
+    const double sine = std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine)));
+    const double longitude =
+        2 * std::numbers::pi * (0.5 - (column.index + column.rest) / radiance.width);
+    const glm::dvec3 in_map{sine * std::sin(longitude), cosine, sine * std::cos(longitude)};
+    return {glm::vec3(sampler.map.world_from_environment * in_map),
+            radiance(column.index, row.index), float(pdf)};
+}
+
+float pdf_environment(const EnvironmentSampler& sampler, const glm::vec3& direction) {
+    const Image<Rgb>& radiance = sampler.map.radiance;
+    const glm::dvec3 in_map =
+        glm::transpose(sampler.map.world_from_environment) * glm::dvec3(direction);
+    const glm::dvec2 texel = texel_from_direction(radiance, in_map);
+    const int x = std::min(int(texel.x), radiance.width - 1);
+    const int y = std::min(int(texel.y), radiance.height - 1);
+    return float(probability_of(sampler.rows, y) *
+                 probability_of(sampler.texels[std::size_t(y)], x) /
+                 texel_solid_angle(radiance, y));
+}
+
+}  // namespace inlay

@@ -1,0 +1,67 @@
+#include "render/trace/pixel_sums.h"
+
+#include <numbers>
+
+namespace inlay {
+namespace {
+
+void store(const ReceiverSums& sums, std::size_t i, Receiver& receiver) {
+    if (sums.hits == 0) return;
+    receiver.object.pixels[i] = sums.object;
+    receiver.position.pixels[i] = glm::vec3(sums.position / double(sums.hits));
+    const double length = glm::length(sums.normal);
+    receiver.normal.pixels[i] = length > 0 ? glm::vec3(sums.normal / length) : glm::vec3(0, 0, 1);
+    receiver.occluder_direct.pixels[i] = sums.occluder_direct;
+    receiver.occluder_indirect.pixels[i] = sums.occluder_indirect;
+}
+
+Receiver make_receiver(int width, int height) {
+    return {Image<std::uint32_t>(width, height), Image<glm::vec3>(width, height),
+            Image<glm::vec3>(width, height), Image<float>(width, height),
+            Image<float>(width, height)};
+}
+
+Irradiance make_irradiance(int width, int height) {
+    return {Image<Rgb>(width, height), Image<Rgb>(width, height), Image<Rgb>(width, height)};
+}
+
+}  // namespace
+
+void store(const PixelSums& sums, int x, int y, NoisyLayers& layers) {
+    const std::size_t i = layers.m.index(x, y);
+    layers.m.pixels[i] =
+        sums.primary > 0 ? 1 - float(sums.virtual_.hits) / float(sums.primary) : 1.0f;
+    layers.k_v.pixels[i] = sums.albedo.mean() / std::numbers::pi_v<float>;
+    layers.s_rv.pixels[i] = sums.glossy_direct.mean() + sums.glossy_indirect.mean();
+    layers.glossy_bandwidth.pixels[i] = sums.glossy_bandwidth;
+    layers.direct.e_r.pixels[i] = sums.direct.e_r.mean();
+    layers.direct.e_rv_real.pixels[i] = sums.direct.e_rv.mean();
+    layers.direct.e_rv_virtual.pixels[i] = sums.direct_virtual.mean();
+    layers.indirect.e_r.pixels[i] = sums.indirect.e_r.mean();
+    layers.indirect.e_rv_real.pixels[i] = sums.indirect.e_rv.mean();
+    layers.indirect.e_rv_virtual.pixels[i] = sums.indirect_virtual.mean();
+    store(sums.real, i, layers.real);
+    store(sums.virtual_, i, layers.virtual_);
+}
+
+NoisyLayers make_noisy_layers(const Lens& lens, const Pose& world_from_camera, int samples) {
+    const int w = lens.width, h = lens.height;
+    NoisyLayers layers;
+    layers.lens = lens;
+    layers.world_from_camera = world_from_camera;
+    layers.samples = samples;
+    layers.m = Image<float>(w, h, 1.0f);
+    layers.k_v = layers.s_rv = Image<Rgb>(w, h);
+    layers.glossy_bandwidth = Image<float>(w, h);
+    layers.direct = layers.indirect = make_irradiance(w, h);
+    layers.real = layers.virtual_ = make_receiver(w, h);
+    return layers;
+}
+
+int dropped(const PixelSums& sums) {
+    return sums.direct.e_r.dropped + sums.indirect.e_r.dropped + sums.direct_virtual.dropped +
+           sums.indirect_virtual.dropped + sums.glossy_direct.dropped +
+           sums.glossy_indirect.dropped;
+}
+
+}  // namespace inlay

@@ -1,0 +1,65 @@
+// PixelSums: what a pixel's samples add up to, real and virtual receivers apart, each with a count
+// of its own (Algorithm 1's sums mix them, which brightens silhouettes).
+#pragma once
+
+#include "render/trace/layers.h"
+
+#include <glm/glm.hpp>
+
+#include <cmath>
+
+namespace inlay {
+
+/// A sum over samples that leaves out the non-finite ones and counts them.
+struct SampleSum {
+    glm::dvec3 sum{0.0};
+    int count = 0, dropped = 0;
+
+    void add(const Rgb& value) {
+        if (!std::isfinite(value.r + value.g + value.b)) {
+            ++dropped;
+            return;
+        }
+        sum += glm::dvec3(value);
+        ++count;
+    }
+    Rgb mean() const { return count > 0 ? Rgb(sum / double(count)) : Rgb(0); }
+};
+
+/// The same sample in both modes: dropped in both if either is not finite.
+struct PairedSum {
+    SampleSum e_r, e_rv;
+
+    void add(const Rgb& real_only, const Rgb& with_virtual) {
+        const bool finite = std::isfinite(real_only.r + real_only.g + real_only.b + with_virtual.r +
+                                          with_virtual.g + with_virtual.b);
+        e_r.add(finite ? real_only : Rgb(NAN));
+        e_rv.add(finite ? with_virtual : Rgb(NAN));
+    }
+};
+
+struct ReceiverSums {
+    int hits = 0;              // primary samples on this kind of surface
+    std::uint32_t object = 0;  // of the first of them; as in Receiver
+    glm::dvec3 position{0.0}, normal{0.0};
+    float occluder_direct = 0, occluder_indirect = 0;  // largest cos/r, 1/m
+};
+
+struct PixelSums {
+    int primary = 0;
+    ReceiverSums real, virtual_;
+    PairedSum direct, indirect;  // on real surfaces
+    SampleSum direct_virtual, indirect_virtual, glossy_direct, glossy_indirect, albedo;
+    float glossy_bandwidth = 0;
+};
+
+/// Writes a pixel's means into the layers.
+void store(const PixelSums& sums, int x, int y, NoisyLayers& layers);
+
+/// Layers of `lens`'s size, all zero.
+NoisyLayers make_noisy_layers(const Lens& lens, const Pose& world_from_camera, int samples);
+
+/// Samples that were left out.
+int dropped(const PixelSums& sums);
+
+}  // namespace inlay

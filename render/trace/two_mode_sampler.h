@@ -1,0 +1,60 @@
+// The two-mode sampler: irradiance with real geometry alone and with real and virtual geometry,
+// from the same random numbers (Mehta 2015, sec. 6.5 and Algorithm 1, corrected).
+#pragma once
+
+#include "render/sample/environment_sampler.h"
+#include "render/trace/embree_scene.h"
+#include "render/trace/layers.h"
+#include "render/trace/real_geometry.h"
+
+#include <cstdint>
+
+namespace inlay {
+
+struct SamplingSettings {
+    int primary = 4;    // camera rays per pixel
+    int secondary = 4;  // light samples per camera ray
+    std::uint32_t seed = 1;
+    float depth_tolerance =
+        0.0f;  // share of depth by which real surfaces must be nearer to hide virtual ones
+    float occluder_floor = 0.02f;  // share of depth: occluders nearer than this count as this far
+    float ignored_luminance =
+        0.1f;  // occluders of light below this share of the mean do not narrow the filter
+};
+
+/// Throws Error unless counts are positive and shares within 0..1.
+void validate(const SamplingSettings& settings);
+
+/// N = `samples` as 4 primary x N/4 secondary; N x 1 below 4. Throws Error unless N > 0 and, from 4
+/// on, a multiple of 4.
+SamplingSettings with_samples(SamplingSettings settings, int samples);
+
+/// All that light meets in one frame, seen through `lens` from `world_from_camera`. References must
+/// outlive the call.
+struct TwoModeScene {
+    Lens lens;
+    Pose world_from_camera;
+    const RealGeometry& real;
+    const EmbreeScene& virtual_objects;
+    const EnvironmentSampler& environment;
+};
+
+/// Rays by class, as frames.jsonl reports them. Shadow rays towards the environment; indirect ones
+/// along the diffuse or glossy lobe.
+struct RayCounts {
+    std::uint64_t primary = 0, virtual_shadow = 0, virtual_indirect = 0, real_shadow = 0,
+                  real_indirect = 0;
+};
+
+struct TwoModeResult {
+    NoisyLayers layers;
+    RayCounts rays;
+};
+
+/// Samples every pixel. `frame` is part of the random numbers' key. Where no sample of a pixel
+/// meets virtual geometry, its e_rv_real equals its e_r to the bit. Non-finite samples are dropped
+/// and counted.
+TwoModeResult sample_two_modes(const TwoModeScene& scene, const SamplingSettings& settings,
+                               std::uint32_t frame);
+
+}  // namespace inlay
