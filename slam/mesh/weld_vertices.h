@@ -8,14 +8,20 @@
 
 namespace inlay {
 
-struct WeldedTriangles {
-    std::vector<glm::vec3> positions;  // voxels
-    std::vector<glm::uvec3> triangles;
+/// A corner of a marching-cubes triangle: where it is, and on which edge of the voxel lattice. The
+/// edge from voxel v to its neighbour along an axis a is named 2 v + a.
+struct EdgeCorner {
+    glm::ivec3 edge{0};
+    glm::vec3 position{0};
 };
 
-/// Merges the corners of a marching-cubes soup (three corners per triangle, in voxel units): those
-/// on the same edge of the voxel lattice become one vertex, and those within 1e-4 voxels of a
-/// lattice point become that point. Triangles that lose an edge by this are dropped.
-WeldedTriangles weld_vertices(std::span<const glm::vec3> corners);
+struct WeldedTriangles {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::uvec3> triangles;  // indices into positions
+};
+
+/// Makes one vertex of all corners on the same edge, at the position of the first, in the order of
+/// first use. `soup` has three corners per triangle, and no triangle has two on one edge.
+WeldedTriangles weld_vertices(std::span<const EdgeCorner> soup);
 
 }  // namespace inlay

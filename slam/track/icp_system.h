@@ -2,7 +2,6 @@
 #pragma once
 
 #include "recordings/base/surface_map.h"
-#include "slam/track/se3.h"
 
 #include <array>
 
@@ -15,29 +14,29 @@ struct PairingSettings {
     float scale = 1.0f;     // standard deviation of the residuals, in units of depth_sigma()
 };
 
-/// Normal equations A x = b of the twist x = (rotation, translation), camera frame of the model,
-/// that takes the observed points closer to the model's tangent planes; rotation about the centre
-/// of the model's camera. Chen and Medioni 1992; weights: Tukey's biweight over the depth noise.
+/// Normal equations A x = b of the twist x = (rotation, translation), in the frame of the model's
+/// camera, that takes the observed points closer to the model's tangent planes.
 struct IcpSystem {
-    std::array<double, 21> a{};  // upper triangle of A, row by row
-    std::array<double, 6> b{};
-    double squared_residual = 0;  // m^2, sum over inliers
-    double weight = 0;            // sum over pairs
-    double mean_z = 0;            // m, sum of z over pairs
+    std::array<double, 21> a{};   // upper triangle of A, row by row, in 1/depth_sigma()^2
+    std::array<double, 6> b{};    // likewise
+    double squared_residual = 0;  // m^2, sum over the inliers
+    double distance = 0;          // m, sum of the pairs' distances from the model's camera
     int observed = 0;             // points tried
     int seen = 0;                 // of these, the ones that fall on the model's surface
     int pairs = 0;                // of these, the ones close enough in position and normal
-    int inliers = 0;              // of these, the ones the robust weight keeps
+    int inliers = 0;              // of these, the ones within 3 scale of the plane
 };
 
-/// Builds the system: each observed point, taken into the model's camera by `model_from_observed`,
-/// is paired with the model's point at the pixel where it appears (projective association; Blais
-/// and Levine 1995). Sums are added in the order of the rows: same bytes for any number of threads.
+/// Pairs each observed point, taken into the model's camera by `model_from_observed`, with the
+/// model's point at the pixel where it appears (projective association; Blais and Levine 1995), and
+/// linearises the distances from the model's tangent planes (Chen and Medioni 1992). Pairs weigh as
+/// the inverse square of the depth noise, times Tukey's biweight of the residual. Sums are added in
+/// the order of the rows: same bytes for any number of threads.
 IcpSystem icp_system(const SurfaceMap& observed, const SurfaceMap& model,
                      const Pose& model_from_observed, const PairingSettings& settings);
 
-/// Robust scale of the residuals (1.4826 times the median of their magnitudes, in units of
-/// depth_sigma()) over the pairs within the settings' gates; 0 if there is no pair.
+/// Robust scale of the residuals of the pairs: 1.4826 times the median of their magnitudes, in
+/// units of depth_sigma(); from every fourth row. 0 if there is no pair.
 float residual_scale(const SurfaceMap& observed, const SurfaceMap& model,
                      const Pose& model_from_observed, const PairingSettings& settings);
 

@@ -1,28 +1,36 @@
-// The distance field between the voxels: trilinear distance, gradient, weight and color.
+// The distance field between the voxels: trilinear distance, gradient and color.
 #pragma once
 
 #include "slam/volume/voxel_volume.h"
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <optional>
 
 namespace inlay {
 
-/// Reads a volume at many nearby points: it remembers the brick that it read last.
+/// What VolumeSampler::distance() gives where the distance is not known. Distances end at 1.
+constexpr float unknown_distance = 2;
+inline bool is_known(float distance) { return distance < 1.5f; }
+
+/// Reads a volume at many nearby points: it remembers the brick that it read last. Points are in
+/// voxel units: p_world / voxel_size.
 class VolumeSampler {
 public:
     explicit VolumeSampler(const VoxelVolume& volume) : volume_(&volume) {}
 
-    /// Distance (of the truncation, -1..1) at a point in voxel units; NaN where one of the eight
-    /// voxels around it was never seen.
-    float distance(const glm::vec3& p_voxels);
-    /// Gradient of the distance per voxel; 0 where it is not known.
-    glm::vec3 gradient(const glm::vec3& p_voxels);
+    /// Distance (of the truncation, -1..1); unknown_distance where one of the eight voxels around
+    /// the point was never seen.
+    float distance(const glm::vec3& p);
+    /// Gradient of the distance per voxel, over two voxels; 0 where it is not known.
+    glm::vec3 gradient(const glm::vec3& p);
     /// The voxel at a lattice position, or null.
     const Voxel* voxel(const glm::ivec3& v);
     /// The brick at `key`, or null.
     const Brick* brick(const glm::ivec3& key);
+    /// The eight voxels around a point, x fastest; null where nothing is allocated.
+    std::array<const Voxel*, 8> corners(const glm::ivec3& base);
 
 private:
     const VoxelVolume* volume_;
@@ -34,5 +42,6 @@ private:
 /// The fused linear color at a point (m, world): trilinear over those of the eight voxels around it
 /// that saw a color; empty where none did.
 std::optional<Rgb> volume_color(const VoxelVolume& volume, const glm::vec3& p_world);
+std::optional<Rgb> volume_color(VolumeSampler& sampler, const glm::vec3& p_voxels);
 
 }  // namespace inlay

@@ -1,0 +1,140 @@
+#include "slam/mapping/advance_slam.h"
+
+#include "recordings/base/check.h"
+#include "slam/depth/depth_pyramid.h"
+#include "slam/depth/surface_from_depth.h"
+#include "slam/mapping/find_way_back.h"
+
+#include <algorithm>
+#include <string>
+
+namespace inlay {
+namespace {
+
+/// One frame's geometry, as far as it can be trusted.
+struct Observed {
+    Image<float> clean, smooth;       // m
+    std::vector<SurfaceMap> pyramid;  // of `smooth`, finest first
+};
+
+void require_sizes(const RgbdFrame& frame) {
+    const auto fits = [&](int width, int height) {
+        return width == frame.lens.width && height == frame.lens.height;
+    };
+    const bool color_fits = frame.color.empty() || fits(frame.color.width, frame.color.height);
+    require(frame.lens.width > 0 && frame.lens.height > 0 && color_fits &&
+                fits(frame.depth.width, frame.depth.height),
+            "frame " + std::to_string(frame.index) +
+                ": color, depth and lens must be of one size; depth has " +
+                std::to_string(frame.depth.width) + " x " + std::to_string(frame.depth.height) +
+                " px, the lens " + std::to_string(frame.lens.width) + " x " +
+                std::to_string(frame.lens.height));
+}
+
+Observed observe(const RgbdFrame& frame, const SlamSettings& settings) {
+    Observed observed;
+    observed.clean = clean_depth(frame.depth, settings.depth);
+    observed.smooth = smooth_depth(observed.clean, settings.depth);
+    for (const DepthLevel& level :
+         depth_pyramid(observed.smooth, frame.lens, settings.track.levels, settings.depth)) {
+        observed.pyramid.push_back(
+            surface_from_depth(level.depth, level.lens, Pose{}, settings.depth));
+    }
+    return observed;
+}
+
+TrackResult certain(const Pose& world_from_camera) {
+    return {world_from_camera, TrackingStatus::tracked, 1, 0, 0};
+}
+
+/// Where the camera may be now: gone on as before, or standing still.
+std::vector<Pose> predictions(const SlamState& state) {
+    const Pose& last = state.model->world_from_camera;
+    if (!state.before_last || state.frames_lost > 0) return {last};
+    return {last * (inverse(*state.before_last) * last), last};
+}
+
+TrackResult track(const SlamState& state, const Observed& observed, const SlamSettings& settings) {
+    TrackResult result =
+        track_frame(observed.pyramid, *state.model, predictions(state), settings.track);
+    if (result.status == TrackingStatus::tracked) return result;
+    if (const auto found = find_way_back(state, observed.pyramid, observed.clean, settings)) {
+        return *found;
+    }
+    const bool trusted = result.status == TrackingStatus::weak && state.frames_lost == 0;
+    if (trusted) return result;
+    result.status = TrackingStatus::lost;
+    result.world_from_camera = state.model->world_from_camera;
+    return result;
+}
+
+TrackResult locate(const SlamState& state, const RgbdFrame& frame, const Observed& observed,
+                   const SlamSettings& settings) {
+    if (state.model) return track(state, observed, settings);
+    return certain(frame.recorded_world_from_camera.value_or(Pose{}));
+}
+
+/// The model's surface; where it has none, what the frame itself saw, as one observation.
+SurfaceMap completed(SurfaceMap model, const SurfaceMap& own, const RaycastSettings& settings) {
+    for (std::size_t i = 0; i < model.position.pixels.size(); ++i) {
+        if (model.position.pixels[i].z > 0 || own.position.pixels[i].z <= 0) continue;
+        model.position.pixels[i] = own.position.pixels[i];
+        model.normal.pixels[i] = own.normal.pixels[i];
+        model.confidence.pixels[i] = std::min(1.0f, 1.0f / settings.full_confidence);
+    }
+    return model;
+}
+
+SurfaceMap uncertain(SurfaceMap surface) {
+    std::fill(surface.confidence.pixels.begin(), surface.confidence.pixels.end(), 0.0f);
+    return surface;
+}
+
+void learn(SlamState& state, const RgbdFrame& frame, const Observed& observed,
+           const Pose& world_from_camera, const SlamSettings& settings) {
+    fuse_depth(state.volume, observed.clean, frame.color, frame.lens, world_from_camera,
+               settings.fusion);
+    remember_view(state.keyframes, world_from_camera, observed.clean);
+    state.before_last.reset();
+    if (state.model && state.frames_lost == 0) state.before_last = state.model->world_from_camera;
+    state.model = raycast_volume(state.volume, frame.lens, world_from_camera, settings.raycast);
+    state.frames_lost = 0;
+}
+
+}  // namespace
+
+void validate(const SlamSettings& settings) {
+    validate(settings.depth);
+    validate(settings.fusion);
+    validate(settings.raycast);
+    validate(settings.track);
+}
+
+SlamState start_slam(const SlamSettings& settings) {
+    validate(settings);
+    SlamState state;
+    state.volume = make_volume(settings.fusion);
+    return state;
+}
+
+SlamStep advance_slam(SlamState& state, const RgbdFrame& frame, const SlamSettings& settings,
+                      const std::optional<Pose>& known_world_from_camera) {
+    require_sizes(frame);
+    const Observed observed = observe(frame, settings);
+    SlamStep step;
+    step.tracking = known_world_from_camera ? certain(*known_world_from_camera)
+                                            : locate(state, frame, observed, settings);
+    const Pose& world_from_camera = step.tracking.world_from_camera;
+    if (step.tracking.status == TrackingStatus::lost) {
+        ++state.frames_lost;
+        step.surface = uncertain(
+            raycast_volume(state.volume, frame.lens, world_from_camera, settings.raycast));
+        return step;
+    }
+    learn(state, frame, observed, world_from_camera, settings);
+    step.surface = completed(*state.model, observed.pyramid.front(), settings.raycast);
+    step.surface.world_from_camera = world_from_camera;
+    return step;
+}
+
+}  // namespace inlay

@@ -1,0 +1,19 @@
+// The step that one ICP system asks for, in the directions that it knows about.
+#pragma once
+
+#include "slam/track/icp_system.h"
+#include "slam/track/se3.h"
+
+namespace inlay {
+
+struct ConstrainedStep {
+    Twist twist;        // in the frame of the model's camera
+    int free_axes = 6;  // directions in which the system does not constrain the motion
+};
+
+/// Solves A x = b by its eigenvectors, with rotations measured as the path (m) of a point at the
+/// pairs' mean distance. Directions whose eigenvalue is less than `degenerate` times the mean one
+/// get no step. Zhang, Kaess and Singh 2016, Sec. IV. No pairs: no step.
+ConstrainedStep constrained_step(const IcpSystem& system, double degenerate);
+
+}  // namespace inlay

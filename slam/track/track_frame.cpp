@@ -1,0 +1,119 @@
+#include "slam/track/track_frame.h"
+
+#include "recordings/base/check.h"
+#include "slam/track/constrained_step.h"
+#include "slam/track/icp_system.h"
+#include "slam/track/se3.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace inlay {
+namespace {
+
+constexpr double still_rotation = 2e-5;     // rad; smaller steps end a level
+constexpr double still_translation = 2e-5;  // m
+constexpr float least_scale = 0.3f;         // of depth_sigma(): below lies quantisation
+
+/// A pose being improved.
+struct Attempt {
+    Pose model_from_observed;
+    int iterations = 0;
+    int free_axes = 0;
+};
+
+PairingSettings pairing_of(int level, const TrackSettings& settings) {
+    const float share = settings.levels > 1 ? float(level) / float(settings.levels - 1) : 0.0f;
+    const float ratio = settings.coarse_distance / settings.fine_distance;
+    return {settings.fine_distance * std::pow(ratio, share), std::cos(settings.largest_angle), 1};
+}
+
+void solve_level(Attempt& attempt, const SurfaceMap& observed, const SurfaceMap& model,
+                 PairingSettings pairing, const TrackSettings& settings) {
+    for (int i = 0; i < settings.iterations; ++i) {
+        const float scale = residual_scale(observed, model, attempt.model_from_observed, pairing);
+        pairing.scale = std::max(scale, least_scale);
+        const IcpSystem system = icp_system(observed, model, attempt.model_from_observed, pairing);
+        const ConstrainedStep step = constrained_step(system, settings.degenerate);
+        attempt.free_axes = step.free_axes;
+        attempt.model_from_observed =
+            orthonormalized(exponential(step.twist) * attempt.model_from_observed);
+        ++attempt.iterations;
+        if (glm::length(step.twist.rotation) < still_rotation &&
+            glm::length(step.twist.translation) < still_translation) {
+            break;
+        }
+    }
+}
+
+/// How well an attempt explains a level: inliers at the sensor's own noise.
+IcpSystem verdict(const Attempt& attempt, const SurfaceMap& observed, const SurfaceMap& model,
+                  int level, const TrackSettings& settings) {
+    return icp_system(observed, model, attempt.model_from_observed, pairing_of(level, settings));
+}
+
+Attempt best_attempt(std::span<const SurfaceMap> observed, const SurfaceMap& model,
+                     std::span<const Pose> starts, const TrackSettings& settings) {
+    const int coarsest = int(observed.size()) - 1;
+    const SurfaceMap& level = observed[std::size_t(coarsest)];
+    Attempt best;
+    int most = -1;
+    for (const Pose& start : starts) {
+        Attempt attempt{inverse(model.world_from_camera) * start};
+        solve_level(attempt, level, model, pairing_of(coarsest, settings), settings);
+        const int inliers = verdict(attempt, level, model, coarsest, settings).inliers;
+        if (inliers <= most) continue;
+        most = inliers;
+        best = attempt;
+    }
+    return best;
+}
+
+TrackingStatus status_of(const TrackResult& result, const IcpSystem& system,
+                         const TrackSettings& settings) {
+    const bool overlaps = float(system.seen) >= settings.least_overlap * float(system.observed);
+    if (system.seen == 0 || !overlaps || result.inlier_share < settings.weak_share ||
+        result.rms_residual > settings.largest_residual) {
+        return TrackingStatus::lost;
+    }
+    return result.inlier_share < settings.tracked_share ? TrackingStatus::weak
+                                                        : TrackingStatus::tracked;
+}
+
+}  // namespace
+
+void validate(const TrackSettings& s) {
+    require(s.levels >= 1 && s.levels <= 6 && s.iterations >= 1,
+            "slam.track.levels must be 1..6 and slam.track.iterations 1 or more", ExitCode::usage);
+    require(s.fine_distance > 0 && s.coarse_distance >= s.fine_distance,
+            "slam.track.fine_distance must be above 0 and no more than coarse_distance",
+            ExitCode::usage);
+    require(s.largest_angle > 0 && s.largest_angle < 1.6f && s.degenerate >= 0 && s.degenerate < 1,
+            "slam.track.largest_angle must be 0..1.6 rad and slam.track.degenerate 0..1",
+            ExitCode::usage);
+    require(s.weak_share >= 0 && s.weak_share <= s.tracked_share && s.tracked_share <= 1,
+            "slam.track.weak_share must be 0 or more and no more than tracked_share <= 1",
+            ExitCode::usage);
+}
+
+TrackResult track_frame(std::span<const SurfaceMap> observed, const SurfaceMap& model,
+                        std::span<const Pose> starts, const TrackSettings& settings) {
+    Attempt attempt = best_attempt(observed, model, starts, settings);
+    for (int level = int(observed.size()) - 2; level >= 0; --level) {
+        solve_level(attempt, observed[std::size_t(level)], model, pairing_of(level, settings),
+                    settings);
+    }
+    const IcpSystem system = verdict(attempt, observed.front(), model, 0, settings);
+    TrackResult result;
+    result.world_from_camera =
+        orthonormalized(model.world_from_camera * attempt.model_from_observed);
+    result.iterations = attempt.iterations;
+    if (system.seen > 0) result.inlier_share = float(system.inliers) / float(system.seen);
+    if (system.inliers > 0) {
+        result.rms_residual = float(std::sqrt(system.squared_residual / system.inliers));
+    }
+    result.status = status_of(result, system, settings);
+    return result;
+}
+
+}  // namespace inlay

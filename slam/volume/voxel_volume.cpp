@@ -1,0 +1,25 @@
+#include "slam/volume/voxel_volume.h"
+
+namespace inlay {
+
+const Brick* find_brick(const VoxelVolume& volume, const glm::ivec3& key) {
+    const int number = volume.index.find(key);
+    return number == BrickIndex::absent ? nullptr : &volume.bricks[std::size_t(number)];
+}
+
+int ensure_brick(VoxelVolume& volume, const glm::ivec3& key) {
+    const int known = volume.index.find(key);
+    if (known != BrickIndex::absent) return known;
+    const int number = int(volume.bricks.size());
+    volume.bricks.emplace_back();
+    volume.bricks.back().key = key;
+    volume.index.insert(key, number);
+    return number;
+}
+
+const Voxel* find_voxel(const VoxelVolume& volume, const glm::ivec3& voxel) {
+    const Brick* brick = find_brick(volume, brick_of(voxel));
+    return brick ? &brick->voxels[std::size_t(slot_in_brick(voxel))] : nullptr;
+}
+
+}  // namespace inlay
