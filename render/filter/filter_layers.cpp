@@ -1,0 +1,217 @@
+// One run of the axis-aligned filter for each kind of receiver and of light.
+#include "render/filter/filter_layers.h"
+
+#include "recordings/base/check.h"
+#include "recordings/base/parallel.h"
+#include "render/filter/receiver_planes.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace inlay {
+namespace {
+
+template <class Pixel>
+void require_size(const NoisyLayers& layers, const Image<Pixel>& image, const char* name) {
+    require(image.width == layers.lens.width && image.height == layers.lens.height &&
+                image.pixels.size() == std::size_t(image.width) * std::size_t(image.height),
+            std::string("noisy layers: ") + name + " is " + std::to_string(image.width) + " x " +
+                std::to_string(image.height) + " px, expected the lens's " +
+                std::to_string(layers.lens.width) + " x " + std::to_string(layers.lens.height));
+}
+
+void check(const NoisyLayers& layers, const Irradiance& light) {
+    require_size(layers, light.e_r, "e_r");
+    require_size(layers, light.e_rv_real, "e_rv_real");
+    require_size(layers, light.e_rv_virtual, "e_rv_virtual");
+}
+
+void check(const NoisyLayers& layers, const Receiver& receiver) {
+    require_size(layers, receiver.object, "object");
+    require_size(layers, receiver.position, "position");
+    require_size(layers, receiver.normal, "normal");
+    require_size(layers, receiver.occluder_direct, "occluder_direct");
+    require_size(layers, receiver.occluder_indirect, "occluder_indirect");
+}
+
+void check(const NoisyLayers& layers) {
+    require(std::isfinite(layers.lens.fx) && std::isfinite(layers.lens.fy) && layers.lens.fx != 0 &&
+                layers.lens.fy != 0,
+            "noisy layers: a focal length of the lens is 0 or not finite");
+    require_size(layers, layers.m, "m");
+    require_size(layers, layers.k_v, "k_v");
+    require_size(layers, layers.s_rv, "s_rv");
+    require_size(layers, layers.glossy_bandwidth, "glossy_bandwidth");
+    check(layers, layers.direct);
+    check(layers, layers.indirect);
+    check(layers, layers.real);
+    check(layers, layers.virtual_);
+}
+
+/// A kind of receiver in this frame and, resampled to this frame's pixels, in the previous one.
+struct Receivers {
+    PreparedReceiver now, previous;
+    Image<std::int32_t> source;  // of `previous`; empty: none
+};
+
+Receivers prepare(const NoisyLayers& now, const NoisyLayers* previous, Receiver NoisyLayers::*kind,
+                  const FilterSettings& settings) {
+    Receivers result;
+    result.now = prepare(now.*kind, now.lens, now.world_from_camera);
+    if (previous == nullptr || result.now.empty) return result;
+    const Receiver before = cleaned(previous->*kind);
+    result.source = matching_pixels(result.now, now.world_from_camera, *previous, before, settings);
+    result.previous = resampled(result.now, before, result.source);
+    return result;
+}
+
+Image<Rgb> rgb_of(const std::vector<Image<float>>& channels, std::size_t first) {
+    Image<Rgb> result(channels[first].width, channels[first].height, Rgb(0));
+    parallel_rows(result.height, [&](int y) {
+        for (int x = 0; x < result.width; ++x)
+            result(x, y) = {channels[first](x, y), channels[first + 1](x, y),
+                            channels[first + 2](x, y)};
+    });
+    return result;
+}
+
+Image<float> mean_inverse_width(const FilterPlanes& planes) {
+    Image<float> result(planes.object.width, planes.object.height, 0.0f);
+    parallel_rows(result.height, [&](int y) {
+        for (int x = 0; x < result.width; ++x)
+            result(x, y) =
+                0.5f * (std::sqrt(planes.precision_x(x, y)) + std::sqrt(planes.precision_y(x, y)));
+    });
+    return result;
+}
+
+struct Smoothed {
+    std::vector<Image<float>> channels;
+    Image<float> inverse_width;
+};
+
+KernelSettings kernel_of(const FilterSettings& settings) {
+    return {settings.kernel_radius,
+            float(std::cos(settings.normal_stop_deg * std::numbers::pi / 180))};
+}
+
+using Images = std::span<const Image<Rgb>* const>;
+
+/// Smooths `images` with one width; `before` are the same of the previous frame.
+Smoothed smooth(const Receivers& receivers, Images images, Images before,
+                std::array<LightLimits, 2> limits, const FilterSettings& settings) {
+    FilterPlanes now = planes_of(receivers.now, images, nullptr);
+    set_precision(now, receivers.now, limits[0], settings);
+    const Image<float> width = mean_inverse_width(now);
+    if (receivers.previous.empty || before.empty())
+        return {filter_axis_aligned(now, nullptr, kernel_of(settings)), width};
+    FilterPlanes previous = planes_of(receivers.previous, before, &receivers.source);
+    set_precision(previous, receivers.previous, limits[1], settings);
+    return {filter_axis_aligned(now, &previous, kernel_of(settings)), width};
+}
+
+/// The two frames at hand and what holds for both.
+struct Frames {
+    const NoisyLayers& now;
+    const NoisyLayers* previous;
+    double environment_bandwidth;
+    const FilterSettings& settings;
+    Receivers real, virtual_;
+};
+
+using Layer = Image<Rgb> Irradiance::*;
+
+/// Smooths the named layers of one kind of light; returns 1 / sigma per pixel.
+Image<float> smooth_light(const Frames& frames, const Receivers& receivers,
+                          std::span<const Layer> layers, LightKind kind, Layers& result) {
+    const bool is_direct = kind == LightKind::direct;
+    const auto light_of = [&](const NoisyLayers& frame) -> const Irradiance& {
+        return is_direct ? frame.direct : frame.indirect;
+    };
+    Irradiance& out = is_direct ? result.direct : result.indirect;
+    std::vector<const Image<Rgb>*> now, before;
+    for (const Layer layer : layers) {
+        out.*layer = Image<Rgb>(frames.now.lens.width, frames.now.lens.height, Rgb(0));
+        now.push_back(&(light_of(frames.now).*layer));
+        if (frames.previous != nullptr) before.push_back(&(light_of(*frames.previous).*layer));
+    }
+    if (receivers.now.empty) return Image<float>(frames.now.lens.width, frames.now.lens.height);
+    LightLimits limits{kind, frames.environment_bandwidth, nullptr, frames.now.samples};
+    LightLimits limits_before = limits;
+    if (frames.previous != nullptr) limits_before.samples = frames.previous->samples;
+    const Smoothed smoothed =
+        smooth(receivers, now, before, {limits, limits_before}, frames.settings);
+    for (std::size_t i = 0; i < layers.size(); ++i)
+        out.*layers[i] = rgb_of(smoothed.channels, 3 * i);
+    return smoothed.inverse_width;
+}
+
+Image<float> of_larger_cover(const Image<float>& m, const Image<float>& real,
+                             const Image<float>& of_virtual) {
+    Image<float> result(m.width, m.height, 0.0f);
+    for (std::size_t i = 0; i < result.pixels.size(); ++i)
+        result.pixels[i] = m.pixels[i] > 0.5f ? real.pixels[i] : of_virtual.pixels[i];
+    return result;
+}
+
+/// Smooths both kinds of receiver; returns 1 / sigma of the kind that covers more of each pixel.
+Image<float> smooth_both(const Frames& frames, LightKind kind, Layers& result) {
+    constexpr std::array<Layer, 2> on_real{&Irradiance::e_r, &Irradiance::e_rv_real};
+    constexpr std::array<Layer, 1> on_virtual{&Irradiance::e_rv_virtual};
+    const Image<float> real = smooth_light(frames, frames.real, on_real, kind, result);
+    const Image<float> of_virtual = smooth_light(frames, frames.virtual_, on_virtual, kind, result);
+    return of_larger_cover(frames.now.m, real, of_virtual);
+}
+
+/// S_RV where a glossy surface is seen; elsewhere it stays as it is on virtual surfaces, and 0 off
+/// them.
+void smooth_glossy(const Frames& frames, Layers& result) {
+    const NoisyLayers& now = frames.now;
+    const Image<std::uint32_t>& object = frames.virtual_.now.receiver.object;
+    Receivers glossy{frames.virtual_.now, {}, {}};
+    bool any = false;
+    for (std::size_t i = 0; i < object.pixels.size(); ++i) {
+        const bool is_glossy = object.pixels[i] != 0 && now.glossy_bandwidth.pixels[i] != 0;
+        if (object.pixels[i] == 0) result.s_rv.pixels[i] = Rgb(0);
+        if (!is_glossy) glossy.now.receiver.object.pixels[i] = 0;
+        any = any || is_glossy;
+    }
+    if (!any) return;
+    const std::array<const Image<Rgb>*, 1> images{&now.s_rv};
+    const LightLimits limits{LightKind::direct, frames.environment_bandwidth, &now.glossy_bandwidth,
+                             now.samples};
+    const Smoothed smoothed = smooth(glossy, images, {}, {limits, limits}, frames.settings);
+    const Image<Rgb> values = rgb_of(smoothed.channels, 0);
+    for (std::size_t i = 0; i < object.pixels.size(); ++i) {
+        if (glossy.now.receiver.object.pixels[i] != 0) result.s_rv.pixels[i] = values.pixels[i];
+    }
+}
+
+}  // namespace
+
+Layers filter_layers(const NoisyLayers& now, const NoisyLayers* previous,
+                     double environment_bandwidth, const FilterSettings& settings) {
+    validate(settings);
+    require(std::isfinite(environment_bandwidth) && environment_bandwidth >= 0,
+            "environment bandwidth is " + std::to_string(environment_bandwidth) +
+                ", expected 0 or more, finite");
+    check(now);
+    const Image<float> blank(now.lens.width, now.lens.height, 0.0f);
+    Layers result{now.m, now.k_v, now.s_rv, now.direct, now.indirect, blank, blank};
+    if (!settings.enabled || blank.empty()) return result;
+    if (!settings.temporal) previous = nullptr;
+    if (previous != nullptr) check(*previous);
+    const Frames frames{now,
+                        previous,
+                        environment_bandwidth,
+                        settings,
+                        prepare(now, previous, &NoisyLayers::real, settings),
+                        prepare(now, previous, &NoisyLayers::virtual_, settings)};
+    result.bandwidth_direct = smooth_both(frames, LightKind::direct, result);
+    result.bandwidth_indirect = smooth_both(frames, LightKind::indirect, result);
+    smooth_glossy(frames, result);
+    return result;
+}
+
+}  // namespace inlay

@@ -1,0 +1,25 @@
+// FilterSettings: every choice of the environment filter, with its unit and default.
+#pragma once
+
+namespace inlay {
+
+/// Which bandwidths and widths the filter uses: those of Mehta 2015, ch. 6, as printed, or with its
+/// constants corrected (see bandlimits.h).
+enum class FilterConstants { corrected, thesis };
+
+struct FilterSettings {
+    bool enabled = true;  // false: the noisy values are passed on
+    FilterConstants constants = FilterConstants::corrected;
+    double curvature_safety = 0.2;    // s_k, > 0; the smaller, the sharper on curved surfaces
+    double visibility_safety = 1.0;   // s_v, > 0; the smaller, the sharper next to occluders
+    int kernel_radius = 15;           // px, >= 0, each way along a row and a column
+    double narrowest_width = 1.0;     // px, >= 0; lower bound of the Gaussian's standard deviation
+    double normal_stop_deg = 10.0;    // 0..90, exclusive; surfaces that turn further do not mix
+    bool temporal = true;             // use the previous frame's unfiltered values
+    double rejection_distance = 3.0;  // px, > 0; last frame's surface must lie within
+};
+
+/// Throws Error(usage) that names the setting which is out of its range.
+void validate(const FilterSettings& settings);
+
+}  // namespace inlay
