@@ -28,7 +28,7 @@ struct ObjectPart {
 };
 
 /// Where an object is at a time (s): an affine world_from_object without shear or mirroring.
-struct Keyframe {
+struct MotionKey {
     double time = 0;  // s
     glm::dmat4 world_from_object{1.0};
 };
@@ -36,7 +36,7 @@ struct Keyframe {
 struct SceneObject {
     std::string name;
     std::vector<ObjectPart> parts;
-    std::vector<Keyframe> motion;  // at least one; times increase strictly
+    std::vector<MotionKey> motion;  // at least one; times increase strictly
     bool real = false;             // counts as real in `render` and `record`
 };
 

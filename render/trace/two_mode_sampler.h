@@ -5,6 +5,7 @@
 #include "render/sample/environment_sampler.h"
 #include "render/trace/embree_scene.h"
 #include "render/trace/layers.h"
+#include "render/trace/ray_counts.h"
 #include "render/trace/real_geometry.h"
 
 #include <cstdint>
@@ -37,13 +38,6 @@ struct TwoModeScene {
     const RealGeometry& real;
     const EmbreeScene& virtual_objects;
     const EnvironmentSampler& environment;
-};
-
-/// Rays by class, as frames.jsonl reports them. Shadow rays towards the environment; indirect ones
-/// along the diffuse or glossy lobe.
-struct RayCounts {
-    std::uint64_t primary = 0, virtual_shadow = 0, virtual_indirect = 0, real_shadow = 0,
-                  real_indirect = 0;
 };
 
 struct TwoModeResult {

@@ -1,0 +1,38 @@
+// RealScene: the real surfaces of one frame, ready to be traced.
+#pragma once
+
+#include "composite/session/settings.h"
+#include "recordings/base/surface_map.h"
+#include "render/trace/embree_scene.h"
+#include "render/trace/real_geometry.h"
+
+#include <memory>
+
+namespace inlay {
+
+/// Keeps what its RealGeometry refers to; movable, since all of it lies behind pointers.
+struct RealScene {
+    std::shared_ptr<const SurfaceMap> surface;
+    std::shared_ptr<const Image<Rgb>> photo;  // linear
+    std::shared_ptr<const EmbreeScene> mesh;  // the map's or the model's triangles
+    RealGeometry geometry;
+};
+
+/// The fused model as the tracer needs it, made anew every few frames.
+struct TracedModel {
+    EmbreeSceneCache cache;
+    std::shared_ptr<const EmbreeScene> mesh;
+    int frame = -1;  // how many frames the model had seen when it was made
+};
+
+/// Extracts and prepares the model if the settings ask for it and it is due. `frames_seen` counts
+/// the frames since the recording's first, whether or not they were composited.
+void update_model(TracedModel& model, const SlamState& slam, int frames_seen,
+                  const GeometrySettings& settings);
+
+/// `photo` has the surface map's size. `slam` gives the surface that an undistorted lens would see,
+/// which the screen tracer needs; `model` the mesh for RealGeometryKind::model.
+RealScene describe_real_scene(SurfaceMap surface, Image<Rgb> photo, const SlamState& slam,
+                              const TracedModel& model, const Settings& settings);
+
+}  // namespace inlay

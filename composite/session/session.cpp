@@ -1,0 +1,105 @@
+#include "composite/session/session.h"
+
+#include "render/filter/environment_bandwidth.h"
+#include "render/filter/filter_layers.h"
+
+#include <chrono>
+#include <utility>
+
+namespace inlay {
+namespace {
+
+/// Milliseconds since it was last asked.
+class StopWatch {
+public:
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
+        last_ = now;
+        return ms;
+    }
+
+private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+SlamStep track(Session& session, const RgbdFrame& frame) {
+    std::optional<Pose> known;
+    if (session.settings.use_recorded_poses) known = frame.recorded_world_from_camera;
+    return advance_slam(session.slam, frame, session.settings.slam, known);
+}
+
+NoisyLayers sample(Session& session, const RealScene& real, const RgbdFrame& frame,
+                   RayCounts& rays) {
+    const EmbreeScene objects =
+        session.virtual_structures.place(session.scene, frame.time, /*real=*/false);
+    const TwoModeScene scene{frame.lens, real.surface->world_from_camera, real.geometry, objects,
+                             session.environment};
+    TwoModeResult result =
+        sample_two_modes(scene, session.settings.trace, std::uint32_t(frame.index));
+    rays = result.rays;
+    return std::move(result.layers);
+}
+
+/// Layers that leave the photograph as it is.
+Layers nothing_simulated(const Image<Rgb>& photo) {
+    Layers layers;
+    layers.m = Image<float>(photo.width, photo.height, 1.0f);
+    return layers;
+}
+
+}  // namespace
+
+Session start_session(const Settings& settings, VirtualScene scene, EnvironmentMap environment) {
+    validate(settings);
+    Session session;
+    session.settings = settings;
+    session.scene = std::move(scene);
+    session.environment_bandwidth = environment_bandwidth(environment.radiance);
+    session.environment = make_environment_sampler(std::move(environment));
+    session.slam = start_slam(settings.slam);
+    return session;
+}
+
+OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work) {
+    const Settings& settings = session.settings;
+    OutputFrame out;
+    StopWatch watch;
+
+    SlamStep slam = track(session, frame);
+    out.tracking = slam.tracking;
+    update_model(session.model, session.slam, session.frames_seen++, settings.geometry);
+    out.ms.slam = watch.lap();
+    const std::shared_ptr<const NoisyLayers> previous = std::exchange(session.previous, nullptr);
+    if (work == FrameWork::track) return out;
+
+    SceneFacts facts = gather_facts(session.scene, session.environment.mean_luminance > 0);
+    facts.tracked = slam.tracking.status != TrackingStatus::lost;
+    facts.first_frame = !previous;
+    out.plan = plan_effects(facts, settings.filter);
+    const Photo photo = linearise(frame.color);
+    out.ms.plan = watch.lap();
+
+    if (out.plan.has("environment_indirect")) {
+        const RealScene real = describe_real_scene(std::move(slam.surface), photo.linear,
+                                                   session.slam, session.model, settings);
+        session.previous =
+            std::make_shared<const NoisyLayers>(sample(session, real, frame, out.rays));
+        out.surface = real.surface;
+        out.camera = real.photo;
+        out.ms.trace = watch.lap();
+    }
+    if (work == FrameWork::sample) return out;
+
+    out.noisy = session.previous;
+    out.layers = out.noisy ? filter_layers(*out.noisy, previous.get(),
+                                           session.environment_bandwidth, settings.filter)
+                           : nothing_simulated(photo.linear);
+    out.ms.filter = watch.lap();
+
+    out.composite = composite(photo, out.layers, settings.blend);
+    out.ms.composite = watch.lap();
+    return out;
+}
+
+}  // namespace inlay

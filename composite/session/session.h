@@ -1,0 +1,53 @@
+// The frame loop: Session holds what survives from frame to frame, advance() is one frame.
+#pragma once
+
+#include "composite/blend/differential.h"
+#include "composite/plan/effect_plan.h"
+#include "composite/session/real_scene.h"
+#include "composite/session/settings.h"
+#include "composite/write/frame_report.h"
+#include "recordings/base/rgbd_frame.h"
+#include "render/sample/environment_sampler.h"
+#include "render/scene/virtual_scene.h"
+
+#include <memory>
+
+namespace inlay {
+
+struct Session {
+    Settings settings;
+    VirtualScene scene;  // objects where they stand, in the recording's world
+    EnvironmentSampler environment;
+    double environment_bandwidth = 0;  // B_e, 1/rad
+
+    SlamState slam;
+    TracedModel model;
+    EmbreeSceneCache virtual_structures;
+    std::shared_ptr<const NoisyLayers> previous;  // of the frame before, if it was sampled
+    int frames_seen = 0;
+};
+
+/// Throws Error for settings out of range or an environment that cannot be sampled.
+Session start_session(const Settings& settings, VirtualScene scene, EnvironmentMap environment);
+
+/// How far to take a frame: a frame that is not shown may still be needed for the model, or for the
+/// temporal filter of the next one.
+enum class FrameWork { track, sample, compose };
+
+/// What one frame became. Only `tracking` is filled by FrameWork::track.
+struct OutputFrame {
+    TrackResult tracking;
+    Composite composite;
+    EffectPlan plan;
+    std::shared_ptr<const NoisyLayers> noisy;  // null where nothing was simulated
+    Layers layers;
+    std::shared_ptr<const SurfaceMap> surface;
+    std::shared_ptr<const Image<Rgb>> camera;  // the photograph, linear
+    RayCounts rays;
+    StageTimes ms;
+};
+
+/// One frame, from sensor to screen. Frames must come in order, from the recording's first.
+OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work);
+
+}  // namespace inlay

@@ -1,0 +1,55 @@
+// Settings: every choice of every stage in one value, each with a name for the command line.
+#pragma once
+
+#include "composite/blend/differential.h"
+#include "render/filter/filter_settings.h"
+#include "render/trace/two_mode_sampler.h"
+#include "slam/mapping/advance_slam.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace inlay {
+
+/// What rays that leave a real surface meet of the real scene.
+enum class RealGeometryKind {
+    screen,  // this frame's surface map, marched in image space
+    map,     // this frame's surface map, triangulated
+    model    // the fused model, triangulated
+};
+
+struct GeometrySettings {
+    RealGeometryKind kind = RealGeometryKind::model;
+    float offset = 0.01f;                // m, distance from a real surface at which its rays start
+    float visibility_tolerance = 0.05f;  // m, within which the photograph sees a point of the model
+    float max_step = 0.05f;              // share of depth; steeper steps of the map are not joined
+    int model_interval = 10;             // frames between two extractions of the model, >= 1
+};
+
+struct Settings {
+    SlamSettings slam;
+    bool use_recorded_poses = false;
+    GeometrySettings geometry;
+    SamplingSettings trace{.depth_tolerance = 0.004f};
+    FilterSettings filter;
+    BlendSettings blend;
+};
+
+/// Throws Error (usage) that names a setting which is out of range.
+void validate(const Settings& settings);
+
+/// A setting as the command line sees it.
+struct SettingRow {
+    std::string name;  // as in --set name=value
+    std::string unit;  // or the words it takes
+    std::function<std::string(const Settings&)> get;
+    std::function<void(Settings&, const std::string&)> set;  // throws Error (usage)
+};
+
+const std::vector<SettingRow>& setting_rows();
+
+/// Applies "name=value". Throws Error (usage) that names the nearest known setting.
+void apply_setting(Settings& settings, const std::string& assignment);
+
+}  // namespace inlay

@@ -1,0 +1,15 @@
+// RayCounts: how many rays of each class a frame took.
+#pragma once
+
+#include <cstdint>
+
+namespace inlay {
+
+/// Shadow rays go towards the environment, indirect ones along the diffuse or glossy lobe; each
+/// class counts the queries against one kind of geometry.
+struct RayCounts {
+    std::uint64_t primary = 0, virtual_shadow = 0, virtual_indirect = 0, real_shadow = 0,
+                  real_indirect = 0;
+};
+
+}  // namespace inlay
