@@ -109,9 +109,7 @@ void fit_lens(RecordingInfo& info, const glm::ivec2& size, const OpenOptions& op
     Lens& lens = info.lens;
     if (options.lens) {
         lens = {size.x, size.y, options.lens->x, options.lens->y, options.lens->z, options.lens->w};
-        std::erase_if(info.warnings, [](const std::string& w) { return w.starts_with("lens"); });
-        std::erase_if(info.assumptions, [](const std::string& a) { return a.starts_with("lens"); });
-        info.assumptions.push_back("lens as given by the options");
+        replace_notes(info, "lens", "lens as given by the options");
     }
     if (lens.width == 0) lens.width = size.x, lens.height = size.y;
     if (lens.width != size.x || lens.height != size.y) {
@@ -240,7 +238,10 @@ Recording make_recording(RecordingInfo info, std::vector<FrameFiles> frames,
     require(!frames.empty(), info.path.string() +
                                  ": found no frame with both a color and a depth image; expected "
                                  "one or more");
-    if (options.depth_scale) info.units_per_metre = *options.depth_scale;
+    if (options.depth_scale) {
+        info.units_per_metre = *options.depth_scale;
+        replace_notes(info, "depth", "depth scale as given by the options");
+    }
     if (options.max_depth) info.max_depth = *options.max_depth;
     fit_lens(info, size_of_images(frames), options);
     fill_frames(info, frames);
@@ -248,6 +249,13 @@ Recording make_recording(RecordingInfo info, std::vector<FrameFiles> frames,
     loader->frames = std::move(frames);
     loader->info = info;
     return {std::move(info), [loader](int number) { return (*loader)(number); }};
+}
+
+void replace_notes(RecordingInfo& info, const std::string& subject, const std::string& note) {
+    const auto about = [&](const std::string& text) { return text.starts_with(subject); };
+    std::erase_if(info.warnings, about);
+    std::erase_if(info.assumptions, about);
+    info.assumptions.push_back(note);
 }
 
 std::string count_and_name(const std::vector<int>& numbers) {

@@ -46,6 +46,10 @@ std::vector<FrameFiles> pair_by_number(const std::vector<NumberedFile>& color,
 Recording make_recording(RecordingInfo info, std::vector<FrameFiles> frames,
                          const OpenOptions& options);
 
+/// Takes out what was said about a subject ("lens", "depth") that something else now decides, and
+/// says so instead.
+void replace_notes(RecordingInfo& info, const std::string& subject, const std::string& note);
+
 /// "3 frames (4, 17, 90)": at most five are named.
 std::string count_and_name(const std::vector<int>& numbers);
 

@@ -125,7 +125,7 @@ Recording open_seven_scenes(const fs::path& folder, const OpenOptions& options) 
                                  numbered_files(folder, "frame-", depth_suffixes), info);
     set_poses(frames, info);
     set_up(info);
-    info.assumptions.emplace_back("depth in mm; 0 and 65535 mean not measured");
+    info.assumptions.emplace_back("depth in mm");
     info.warnings.emplace_back(
         "Kinect recordings of this layout store color and depth as two unregistered views, 25 mm "
         "apart: expect edges to disagree by several pixels");

@@ -115,12 +115,20 @@ std::string traces_of_origin(const fs::path& folder) {
     return text;
 }
 
+/// The data set's camera that this recording comes from; null for any other recording.
+const KnownLens* known_camera(const fs::path& folder) {
+    const std::string origin = traces_of_origin(folder);
+    for (const KnownLens& known : known_lenses)
+        if (mentions(origin, known.long_name) || mentions(origin, known.short_name)) return &known;
+    return nullptr;
+}
+
 void set_lens(RecordingInfo& info) {
-    const std::string origin = traces_of_origin(info.path);
-    for (const KnownLens& known : known_lenses) {
-        if (!mentions(origin, known.long_name) && !mentions(origin, known.short_name)) continue;
-        info.lens = known.lens;
-        info.assumptions.push_back(std::string("lens of ") + known.long_name +
+    info.units_per_metre = 5000;
+    info.assumptions.emplace_back("depth in 1/5000 m");
+    if (const KnownLens* known = known_camera(info.path)) {
+        info.lens = known->lens;
+        info.assumptions.push_back(std::string("lens of ") + known->long_name +
                                    ", by the recording's name");
         return;
     }
@@ -135,18 +143,21 @@ int side(const nlohmann::json& value) {
 }
 
 void apply_camera_json(const nlohmann::json& json, RecordingInfo& info) {
+    require(json.is_object(), (info.path / "camera.json").string() + ": expected an object {...}");
     if (json.contains("lens")) {
         const auto l = json.at("lens").get<std::array<double, 4>>();
         info.lens = {side(json.at("width")), side(json.at("height")), l[0], l[1], l[2], l[3]};
-        info.warnings.clear();
-        info.assumptions.clear();
+        replace_notes(info, "lens", "lens from camera.json");
     }
     if (json.contains("distortion")) {
         const auto d = json.at("distortion").get<std::array<double, 5>>();
         info.lens.k1 = d[0], info.lens.k2 = d[1], info.lens.p1 = d[2], info.lens.p2 = d[3];
         info.lens.k3 = d[4];
     }
-    if (json.contains("depth_scale")) info.units_per_metre = json.at("depth_scale").get<double>();
+    if (json.contains("depth_scale")) {
+        info.units_per_metre = json.at("depth_scale").get<double>();
+        replace_notes(info, "depth", "depth scale from camera.json");
+    }
     if (json.contains("up")) {
         const auto up = json.at("up").get<std::array<double, 3>>();
         info.up = glm::dvec3(up[0], up[1], up[2]);
@@ -163,7 +174,6 @@ void read_camera_json(RecordingInfo& info) {
     } catch (const nlohmann::json::exception& failure) {
         throw Error(ExitCode::bad_data, file.string() + ": " + failure.what());
     }
-    info.assumptions.emplace_back("lens, depth scale and up as far as camera.json has them");
     const Lens& lens = info.lens;
     require(lens.width > 0 && lens.height > 0 && lens.fx > 0 && lens.fy != 0,
             file.string() + ": expected width, height and fx above 0, and fy other than 0");
@@ -185,6 +195,9 @@ void set_poses(std::vector<FrameFiles>& frames, RecordingInfo& info) {
     info.pose_source = "groundtruth.txt, camera-to-world, interpolated at the color stamps";
     for (FrameFiles& frame : frames)
         frame.world_from_camera = interpolate_at(trajectory, frame.time_ns);
+    if (info.up || !known_camera(info.path)) return;
+    info.up = {0, 0, 1};
+    info.assumptions.emplace_back("up is +z of the motion capture's world");
 }
 
 }  // namespace
@@ -198,7 +211,6 @@ bool recognises_tum(const fs::path& folder) {
 Recording open_tum(const fs::path& folder, const OpenOptions& options) {
     RecordingInfo info;
     info.path = folder;
-    info.units_per_metre = 5000;
     set_lens(info);
     read_camera_json(info);
     auto frames = list_frames(info);
