@@ -1,0 +1,65 @@
+#include "apps/inlay/render_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+
+namespace inlay {
+namespace {
+
+void apply_quality(Settings& settings, const std::string& quality) {
+    if (quality == "draft") settings.trace = with_samples(settings.trace, 4);
+    if (quality == "reference") {
+        settings.trace = with_samples(settings.trace, 1024);
+        settings.filter.enabled = false;
+    }
+}
+
+}  // namespace
+
+void add_render_options(CLI::App& subcommand, RenderOptions& o) {
+    subcommand
+        .add_option("--quality", o.quality,
+                    "draft: 4 samples; standard: 16; reference: 1024, unfiltered")
+        ->check(CLI::IsMember({"draft", "standard", "reference"}))
+        ->capture_default_str();
+    subcommand.add_option("--samples", o.samples,
+                          "samples per pixel in all: 4 primary x N/4 secondary (below 4: N x 1)");
+    subcommand.add_option("--filter", o.filter, "the axis-aligned filter")
+        ->check(CLI::IsMember({"on", "off"}));
+    subcommand.add_option("--constants", o.constants, "of the filter")
+        ->check(CLI::IsMember({"corrected", "thesis"}));
+    subcommand.add_option("--temporal", o.temporal, "filter with the frame before")
+        ->check(CLI::IsMember({"on", "off"}));
+    subcommand.add_option("--set", o.set, "name=value of any setting; may be given several times")
+        ->allow_extra_args(false);
+    subcommand.add_flag("--print-settings", o.print_settings, "list every setting and stop");
+    subcommand.add_option("--layers", o.layers, "layers of the EXR files: names, or all");
+    subcommand
+        .add_option("--assets", o.assets, "folder with files of the scene; several are possible")
+        ->allow_extra_args(false);
+}
+
+Settings settings_from(const RenderOptions& o, const CommonOptions& common) {
+    Settings settings;
+    settings.trace.seed = common.seed;
+    apply_quality(settings, o.quality);
+    if (o.samples != 0) settings.trace = with_samples(settings.trace, o.samples);
+    const auto set = [&](const char* name, const std::string& value) {
+        if (!value.empty()) apply_setting(settings, name + ("=" + value));
+    };
+    set("filter.enabled", o.filter);
+    set("filter.constants", o.constants);
+    set("filter.temporal", o.temporal);
+    for (const std::string& assignment : o.set) apply_setting(settings, assignment);
+    validate(settings);
+    return settings;
+}
+
+void print_settings(const Settings& settings) {
+    for (const SettingRow& row : setting_rows())
+        std::cout << row.name << "=" << row.get(settings)
+                  << (row.unit.empty() ? "" : "  # " + row.unit) << "\n";
+}
+
+}  // namespace inlay
