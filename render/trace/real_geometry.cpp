@@ -1,5 +1,7 @@
 #include "render/trace/real_geometry.h"
 
+#include "render/trace/map_primary.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -24,23 +26,6 @@ std::optional<Rgb> photographed(const PhotographedSurface& seen, const glm::vec3
     if (!pixel || !map.has_surface(pixel->x, pixel->y)) return std::nullopt;
     if (std::abs(map.position(pixel->x, pixel->y).z - float(p.z)) > tolerance) return std::nullopt;
     return seen.photo(pixel->x, pixel->y);
-}
-
-std::array<RealPrimaryHit, packet_width> map_primary(
-    const SurfaceMap& map, const RayPacket& rays,
-    const std::array<glm::ivec2, packet_width>& pixels) {
-    std::array<RealPrimaryHit, packet_width> hits;
-    const glm::mat3 rotation(map.world_from_camera.rotation);
-    const glm::vec3 forward = rotation[2];
-    for (int lane = 0; lane < packet_width; ++lane) {
-        const auto i = std::size_t(lane);
-        if (!rays.has(lane) || !map.has_surface(pixels[i].x, pixels[i].y)) continue;
-        const float depth = map.position(pixels[i].x, pixels[i].y).z;
-        const float distance = depth / glm::dot(rays.direction[i], forward);
-        hits[i] = {distance, rays.origin[i] + distance * rays.direction[i],
-                   rotation * map.normal(pixels[i].x, pixels[i].y)};
-    }
-    return hits;
 }
 
 }  // namespace

@@ -1,0 +1,16 @@
+// Primary hits on a surface map, the same for everything that traces its real geometry.
+#pragma once
+
+#include "render/trace/real_geometry.h"
+
+#include <array>
+
+namespace inlay {
+
+/// Where camera rays meet the tangent planes of the pixels they go through, so that points of one
+/// pixel lie on one plane; planes seen too flat are kept within a few percent of the pixel's depth.
+std::array<RealPrimaryHit, packet_width> map_primary(
+    const SurfaceMap& map, const RayPacket& camera_rays,
+    const std::array<glm::ivec2, packet_width>& pixels);
+
+}  // namespace inlay
