@@ -1,0 +1,52 @@
+// FrameReport: the line per finished frame in frames.jsonl.
+#pragma once
+
+#include "recordings/base/pose.h"
+#include "render/trace/ray_counts.h"
+#include "slam/track/track_frame.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace inlay {
+
+/// Wall time of a frame's stages, ms.
+struct StageTimes {
+    double load = 0, slam = 0, plan = 0, trace = 0, filter = 0, composite = 0, write = 0, total = 0;
+};
+
+struct PixelCounts {
+    std::uint64_t virtual_ = 0;    // covered by a virtual object, at least in part
+    std::uint64_t influenced = 0;  // written bytes differ from the recorded ones
+    std::uint64_t skipped = 0;     // no real-geometry ray was traced
+};
+
+struct FrameReport {
+    int frame = 0;    // the recording's own number
+    double time = 0;  // s since the recording's first frame
+    TrackingStatus tracking = TrackingStatus::tracked;
+    Pose world_from_camera{};
+    StageTimes ms{};
+    RayCounts rays{};
+    PixelCounts pixels{};
+    std::vector<std::string> plan{};  // the effects that were simulated
+};
+
+/// One line of JSON without its line end; numbers read back to the same bits.
+std::string to_json_line(const FrameReport& report);
+
+/// The report in a line. Throws Error (bad_data); `place` names the line in the message.
+FrameReport from_json_line(const std::string& line, const std::string& place);
+
+/// Appends a line and syncs it to disk. An unfinished last line, left by an interrupted run, is
+/// cut off first; when the disk is full the file is left as it was. Throws Error (disk_fault,
+/// cannot_create).
+void append_report(const std::filesystem::path& file, const FrameReport& report);
+
+/// All reports of a file, in its order; none when there is no such file. A last line without its
+/// end was interrupted and is ignored; any other damage throws Error (bad_data) naming the line.
+std::vector<FrameReport> read_reports(const std::filesystem::path& file);
+
+}  // namespace inlay
