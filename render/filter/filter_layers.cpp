@@ -55,12 +55,21 @@ struct Receivers {
     Image<std::int32_t> source;  // of `previous`; empty: none
 };
 
+/// The receiver, cleaned, with the rates that its neighbors know.
+Receiver completed(const Receiver& receiver, const FilterSettings& settings) {
+    Receiver result = cleaned(receiver);
+    if (settings.constants == FilterConstants::thesis || settings.rate_reach == 0) return result;
+    for (Image<float> Receiver::*rates : {&Receiver::occluder_direct, &Receiver::occluder_indirect})
+        result.*rates = filled_rates(result.*rates, result.object, settings.rate_reach);
+    return result;
+}
+
 Receivers prepare(const NoisyLayers& now, const NoisyLayers* previous, Receiver NoisyLayers::*kind,
                   const FilterSettings& settings) {
     Receivers result;
-    result.now = prepare(now.*kind, now.lens, now.world_from_camera);
+    result.now = prepare(completed(now.*kind, settings), now.lens, now.world_from_camera);
     if (previous == nullptr || result.now.empty) return result;
-    const Receiver before = cleaned(previous->*kind);
+    const Receiver before = completed(previous->*kind, settings);
     result.source = matching_pixels(result.now, now.world_from_camera, *previous, before, settings);
     result.previous = resampled(result.now, before, result.source);
     return result;

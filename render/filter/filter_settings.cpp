@@ -23,6 +23,8 @@ void validate(const FilterSettings& s) {
                     "a positive number");
     require_setting(positive(s.visibility_safety), "visibility_safety", s.visibility_safety,
                     "a positive number");
+    require_setting(s.rate_reach >= 0 && s.rate_reach <= 100, "rate_reach", s.rate_reach,
+                    "0 to 100 px");
     require_setting(s.kernel_radius >= 0 && s.kernel_radius <= 1000, "kernel_radius",
                     s.kernel_radius, "0 to 1000 px");
     require_setting(std::isfinite(s.narrowest_width) && s.narrowest_width >= 0, "narrowest_width",

@@ -12,8 +12,9 @@ struct FilterSettings {
     FilterConstants constants = FilterConstants::corrected;
     double curvature_safety = 0.2;    // s_k, > 0; the smaller, the sharper on curved surfaces
     double visibility_safety = 1.0;   // s_v, > 0; the smaller, the sharper next to occluders
+    int rate_reach = 2;               // px, >= 0; see filled_rates; not used with thesis constants
     int kernel_radius = 15;           // px, >= 0, each way along a row and a column
-    double narrowest_width = 1.0;     // px, >= 0; lower bound of the Gaussian's standard deviation
+    double narrowest_width = 1.0;     // px, >= 0; lower bound of sigma
     double normal_stop_deg = 10.0;    // 0..90, exclusive; surfaces that turn further do not mix
     bool temporal = true;             // use the previous frame's unfiltered values
     double rejection_distance = 3.0;  // px, > 0; last frame's surface must lie within

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace inlay {
 namespace {
@@ -48,12 +49,38 @@ Receiver blank_receiver(int width, int height) {
     return {Image<std::uint32_t>(width, height, 0), vectors, vectors, numbers, numbers};
 }
 
-double larger_inverse_width(LocalFrequencies f, const LightLimits& limits, double occluder_indirect,
-                            const FilterSettings& settings) {
-    const double own = inverse_width(f, limits.light, settings);
-    if (limits.glossy_bandwidth == nullptr) return own;
-    f.occluder = occluder_indirect;  // S_RV holds direct and indirect light
-    return std::max(own, inverse_width(f, LightKind::indirect, settings));
+/// The mean of the rates above 0 around a pixel on its own object; 0 without any.
+float mean_known_rate(const Image<float>& rates, const Image<std::uint32_t>& object, glm::ivec2 at,
+                      int reach) {
+    float sum = 0, count = 0;
+    for (int y = std::max(at.y - reach, 0); y <= std::min(at.y + reach, rates.height - 1); ++y) {
+        for (int x = std::max(at.x - reach, 0); x <= std::min(at.x + reach, rates.width - 1); ++x) {
+            if (rates(x, y) == 0 || object(x, y) != object(at.x, at.y)) continue;
+            sum += rates(x, y);
+            ++count;
+        }
+    }
+    return count > 0 ? sum / count : 0.0f;
+}
+
+/// Everything that decides the width at one pixel along one axis but the curvature.
+struct WidthLimits {
+    double direct_rate, indirect_rate, glossy;
+    double g, narrowest;  // sample factor; m
+};
+
+float precision_at(double curvature, const WidthLimits& at, const LightLimits& limits,
+                   const FilterSettings& settings) {
+    LocalFrequencies f{curvature, at.direct_rate, limits.environment_bandwidth, at.glossy};
+    double inverse = 0;
+    if (limits.light == LightKind::direct) inverse = inverse_width(f, LightKind::direct, settings);
+    if (limits.light == LightKind::indirect || limits.glossy_bandwidth != nullptr) {
+        f.occluder = at.indirect_rate;  // S_RV holds direct and indirect light
+        inverse = std::max(inverse, inverse_width(f, LightKind::indirect, settings));
+    }
+    if (inverse == 0) return 0;
+    const double sigma = std::max(at.g / inverse, at.narrowest);
+    return float(std::pow(clamped_bandwidth(1 / std::max(sigma, 1e-30)), 2));
 }
 
 }  // namespace
@@ -79,10 +106,9 @@ Receiver cleaned(const Receiver& receiver) {
     return result;
 }
 
-PreparedReceiver prepare(const Receiver& receiver, const Lens& lens,
-                         const Pose& world_from_camera) {
+PreparedReceiver prepare(Receiver receiver, const Lens& lens, const Pose& world_from_camera) {
     PreparedReceiver result;
-    result.receiver = cleaned(receiver);
+    result.receiver = std::move(receiver);
     result.empty = !any_object(result.receiver);
     if (result.empty) return result;
     result.footprint = pixel_footprint(result.receiver, lens, world_from_camera);
@@ -166,6 +192,18 @@ FilterPlanes planes_of(const PreparedReceiver& receiver, std::span<const Image<R
     return planes;
 }
 
+Image<float> filled_rates(const Image<float>& rates, const Image<std::uint32_t>& object,
+                          int reach) {
+    Image<float> result = rates;
+    parallel_rows(rates.height, [&](int y) {
+        for (int x = 0; x < rates.width; ++x) {
+            if (object(x, y) != 0 && rates(x, y) == 0)
+                result(x, y) = mean_known_rate(rates, object, {x, y}, reach);
+        }
+    });
+    return result;
+}
+
 void set_precision(FilterPlanes& planes, const PreparedReceiver& receiver,
                    const LightLimits& limits, const FilterSettings& settings) {
     const Receiver& r = receiver.receiver;
@@ -175,23 +213,16 @@ void set_precision(FilterPlanes& planes, const PreparedReceiver& receiver,
     parallel_rows(r.object.height, [&](int y) {
         for (int x = 0; x < r.object.width; ++x) {
             if (planes.object(x, y) == 0) continue;
-            const double occluder =
-                double(limits.light == LightKind::direct ? r.occluder_direct(x, y)
-                                                         : r.occluder_indirect(x, y));
             const double glossy = limits.glossy_bandwidth == nullptr
                                       ? 0.0
-                                      : clamped_bandwidth((*limits.glossy_bandwidth)(x, y));
-            const double narrowest = settings.narrowest_width * double(receiver.footprint(x, y));
-            const auto precision = [&](double curvature) {
-                const LocalFrequencies f{curvature, occluder, limits.environment_bandwidth, glossy};
-                const double inverse = clamped_bandwidth(
-                    larger_inverse_width(f, limits, double(r.occluder_indirect(x, y)), settings) /
-                    g);
-                const double sigma = std::max(1 / std::max(inverse, 1e-30), narrowest);
-                return float(inverse > 0 ? 1 / (sigma * sigma) : 0.0);
-            };
-            planes.precision_x(x, y) = precision(double(receiver.curvature.x(x, y)));
-            planes.precision_y(x, y) = precision(double(receiver.curvature.y(x, y)));
+                                      : clamped_bandwidth(double((*limits.glossy_bandwidth)(x, y)));
+            const WidthLimits at{double(r.occluder_direct(x, y)), double(r.occluder_indirect(x, y)),
+                                 glossy, g,
+                                 settings.narrowest_width * double(receiver.footprint(x, y))};
+            planes.precision_x(x, y) =
+                precision_at(double(receiver.curvature.x(x, y)), at, limits, settings);
+            planes.precision_y(x, y) =
+                precision_at(double(receiver.curvature.y(x, y)), at, limits, settings);
         }
     });
 }
