@@ -18,8 +18,8 @@ int wrapped(int i, int size) {
 
 Rgb look_up(const Texture& texture, glm::vec2 uv) {
     if (!(std::abs(uv.x) < 1e6f && std::abs(uv.y) < 1e6f)) return texture(0, 0);
-    const float x = uv.x * float(texture.width) - 0.5f;
-    const float y = uv.y * float(texture.height) - 0.5f;
+    const float x = (uv.x - std::floor(uv.x)) * float(texture.width) - 0.5f;
+    const float y = (uv.y - std::floor(uv.y)) * float(texture.height) - 0.5f;
     const int x0 = int(std::floor(x)), y0 = int(std::floor(y));
     const float tx = x - float(x0), ty = y - float(y0);
     const auto texel = [&](int i, int j) {
@@ -33,19 +33,22 @@ Rgb textured(const Rgb& factor, const std::shared_ptr<const Texture>& texture, g
     return texture && !texture->empty() ? factor * look_up(*texture, uv) : factor;
 }
 
-Bsdf at(const Diffuse& m, glm::vec2 uv) {
+Bsdf at(const Diffuse& m, glm::vec2 uv, float) {
     return {textured(m.reflectance, m.texture, uv), std::nullopt};
 }
 
-Bsdf at(const Phong& m, glm::vec2 uv) {
+Bsdf at(const Phong& m, glm::vec2 uv, float) {
     return {textured(m.diffuse, m.texture, uv), PhongLobe{m.specular, m.exponent}};
 }
 
-Bsdf at(const Ggx& m, glm::vec2 uv) {
+Bsdf at(const Ggx& m, glm::vec2 uv, float viewer_cosine) {
     const Rgb base = textured(m.base_color, m.texture, uv);
-    const Rgb f0 = glm::mix(Rgb(0.04f), base, m.metallic);
+    constexpr float dielectric = 0.04f;  // reflectance at normal incidence
+    const Rgb f0 = glm::mix(Rgb(dielectric), base, m.metallic);
+    const float grazing = std::pow(1 - std::clamp(viewer_cosine, 0.0f, 1.0f), 5.0f);
+    const float refracted = (1 - dielectric) * (1 - grazing);
     const glm::vec2 alpha = glm::max(m.roughness * m.roughness, glm::vec2(1e-3f));
-    return {base * (1 - m.metallic) * 0.96f, GgxLobe{f0, alpha}};
+    return {base * (1 - m.metallic) * refracted, GgxLobe{f0, alpha}};
 }
 
 glm::vec3 mirror_direction(const ScatterFrame& frame) {
@@ -67,6 +70,7 @@ DirectionSample sample(const PhongLobe& lobe, const ScatterFrame& frame, glm::ve
 }
 
 float pdf(const PhongLobe& lobe, const ScatterFrame& frame, const glm::vec3& towards_light) {
+    if (glm::dot(frame.world_from_local[2], towards_light) <= 0) return 0;
     const float c = std::clamp(glm::dot(mirror_direction(frame), towards_light), 0.0f, 1.0f);
     return pdf_cosine_power({0, 0, c}, lobe.exponent);
 }
@@ -98,8 +102,8 @@ float equivalent_exponent(const GgxLobe& lobe) { return 0.5f / (lobe.alpha.x * l
 
 }  // namespace
 
-Bsdf bsdf_at(const Material& material, glm::vec2 uv) {
-    return std::visit([&](const auto& m) { return at(m, uv); }, material);
+Bsdf bsdf_at(const Material& material, glm::vec2 uv, float viewer_cosine) {
+    return std::visit([&](const auto& m) { return at(m, uv, viewer_cosine); }, material);
 }
 
 ScatterFrame scatter_frame(const glm::vec3& normal, const glm::vec3& towards_viewer) {

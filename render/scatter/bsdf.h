@@ -28,9 +28,6 @@ struct Bsdf {
     std::optional<std::variant<PhongLobe, GgxLobe>> glossy;
 };
 
-/// `uv`: texture coordinates, (0, 0) = top left; repeats outside 0..1. Bilinear.
-Bsdf bsdf_at(const Material& material, glm::vec2 uv);
-
 /// Directions at a surface point, all unit and pointing away from it.
 struct ScatterFrame {
     glm::mat3 world_from_local{1.0f};  // third column: the shading normal, on the viewer's side
@@ -38,6 +35,12 @@ struct ScatterFrame {
 };
 
 ScatterFrame scatter_frame(const glm::vec3& normal, const glm::vec3& towards_viewer);
+
+/// `uv`: texture coordinates, (0, 0) = top left; repeats outside 0..1. Bilinear. `viewer_cosine`
+/// (0..1) between normal and viewer: what a dielectric's surface reflects, by Schlick's Fresnel
+/// term, does not reach its base. Taking the viewer's angle alone keeps the base Lambertian in the
+/// light's direction, and the sum of both parts at most 1.
+Bsdf bsdf_at(const Material& material, glm::vec2 uv, float viewer_cosine);
 
 /// Glossy part of the BSDF times the cosine at the surface (1/sr); the diffuse part is albedo / pi.
 Rgb eval_glossy(const Bsdf& bsdf, const ScatterFrame& frame, const glm::vec3& towards_light);

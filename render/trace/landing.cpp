@@ -12,9 +12,9 @@ Landing land_on_virtual(const EmbreeScene& objects, const SurfaceHit& hit, const
     landing.position = point.position;
     const bool behind = glm::dot(point.geometric_normal, direction) > 0;
     landing.geometric_normal = behind ? -point.geometric_normal : point.geometric_normal;
-    landing.bsdf = bsdf_at(part.material, point.uv);
     landing.frame = scatter_frame(point.shading_normal, -direction);
     landing.normal = landing.frame.world_from_local[2];
+    landing.bsdf = bsdf_at(part.material, point.uv, -glm::dot(landing.normal, direction));
     landing.object = part.object + 1;
     return landing;
 }
@@ -31,7 +31,8 @@ Landings land(const RealGeometry& real, const EmbreeScene& objects, const RayPac
         if (on_virtual[i].hit() && !(tolerated < on_virtual[i].distance)) {
             landings[i] =
                 land_on_virtual(objects, on_virtual[i], rays.origin[i], rays.direction[i]);
-        } else if (on_real[i].distance != no_hit) {
+        } else if (on_real[i].distance != no_hit &&
+                   glm::dot(on_real[i].normal, on_real[i].normal) > 0) {
             Landing& landing = landings[i];
             landing.kind = LandingKind::real;
             landing.distance = on_real[i].distance;

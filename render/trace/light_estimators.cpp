@@ -36,11 +36,12 @@ struct RayPair {
     }
 };
 
-/// cos/r (1/m) of an occluder, with distances below the floor counted as the floor.
+/// cos/r (1/m) of an occluder, with distances below the floor counted as the floor, and none below
+/// the distance at which rays start.
 float occluder_rate(const Landing& from, const glm::vec3& direction, float distance,
                     const SamplingSettings& settings) {
     const float cosine = std::max(0.0f, glm::dot(from.normal, direction));
-    return cosine / std::max(distance, settings.occluder_floor * from.distance);
+    return cosine / std::max({distance, settings.occluder_floor * from.distance, surface_offset});
 }
 
 void widen(float& rate, float candidate) { rate = std::max(rate, candidate); }
@@ -167,7 +168,6 @@ void add_direct(SamplePass& pass) {
             continue;
         }
         sums.direct_virtual.add(with_virtual);
-        if (!from.bsdf.glossy) continue;
         const float combined =
             lights[i].pdf +
             (traced ? pdf_glossy(from.bsdf, from.frame, lights[i].direction) : 0.0f);
@@ -214,13 +214,12 @@ void add_glossy(SamplePass& pass) {
         lobe[i] = sample_glossy(from.bsdf, from.frame, stratified_pair(pass.keys[i], glossy_lobe));
         if (lobe[i].pdf > 0) rays.set(lane, from, lobe[i].direction, pass.scene.real.offset);
     }
-    if (rays.against_virtual.active == 0) return;
-    const Bounce light_back = bounce(pass, rays);
+    const Bounce light_back = rays.against_virtual.active != 0 ? bounce(pass, rays) : Bounce{};
     for (int lane = 0; lane < packet_width; ++lane) {
         const auto i = std::size_t(lane);
         const Landing& from = pass.landings[i];
-        if (from.kind != LandingKind::on_virtual || !from.bsdf.glossy) continue;
-        Rgb value(0);
+        if (from.kind != LandingKind::on_virtual) continue;
+        Rgb value(0);  // also without a lobe: S_RV is a mean over all samples on virtual surfaces
         if (rays.against_virtual.has(lane)) {
             const Rgb scattered = eval_glossy(from.bsdf, from.frame, lobe[i].direction);
             const EnvironmentSampler& environment = pass.scene.environment;

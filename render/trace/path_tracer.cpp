@@ -29,8 +29,9 @@ PathVertex vertex_at(const EmbreeScene& scene, const SurfaceHit& hit, const glm:
                      const glm::vec3& direction) {
     PathVertex v;
     v.point = scene.surface_point(hit, origin, direction);
-    v.bsdf = bsdf_at(scene.parts()[hit.part].material, v.point.uv);
     v.frame = scatter_frame(v.point.shading_normal, -direction);
+    v.bsdf = bsdf_at(scene.parts()[hit.part].material, v.point.uv,
+                     -glm::dot(v.frame.world_from_local[2], direction));
     v.glossy_share = !v.bsdf.glossy ? 0.0f : luminance(v.bsdf.diffuse) > 0 ? 0.5f : 1.0f;
     return v;
 }
