@@ -206,8 +206,8 @@ std::vector<NumberedFile> numbered_files(const fs::path& folder, std::string_vie
     }
     std::ranges::sort(files, {}, &NumberedFile::path);
     std::ranges::stable_sort(files, {}, &NumberedFile::number);
-    const auto repeated = std::ranges::unique(files, {}, &NumberedFile::number);
-    files.erase(repeated.begin(), repeated.end());
+    const auto same = [](const auto& a, const auto& b) { return a.number == b.number; };
+    files.erase(std::unique(files.begin(), files.end(), same), files.end());
     return files;
 }
 
@@ -220,13 +220,12 @@ std::vector<FrameFiles> pair_by_number(const std::vector<NumberedFile>& color,
     if (const auto alone = numbers_without_partner(depth, color_of); !alone.empty())
         info.warnings.push_back(count_and_name(alone) + " left out: no color file");
     std::vector<FrameFiles> frames;
-    for (const auto& [number, file] : color_of)
-        if (const auto partner = depth_of.find(number); partner != depth_of.end())
-            frames.push_back({number,
-                              std::int64_t(std::llround(number * 1e9 / synthetic_rate)),
-                              file,
-                              partner->second,
-                              {}});
+    for (const auto& [number, file] : color_of) {
+        const auto partner = depth_of.find(number);
+        if (partner == depth_of.end()) continue;
+        const std::int64_t time_ns = std::llround(number * 1e9 / synthetic_rate);
+        frames.push_back({number, time_ns, file, partner->second, {}});
+    }
     info.synthetic_times = true;
     info.assumptions.push_back("times are synthetic: the files carry none, 30 frames a second");
     return frames;

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <limits>
 #include <sstream>
+#include <system_error>
 
 namespace inlay {
 namespace fs = std::filesystem;
@@ -18,6 +19,8 @@ namespace {
 
 constexpr std::uintmax_t text_limit = 256u << 20;  // bytes; no list of frames comes near
 constexpr std::int64_t latest_ns = 4'000'000'000'000'000'000;  // differences of two stamps fit
+
+std::string last_failure() { return std::generic_category().message(errno); }
 
 std::vector<TextLine> all_lines(const fs::path& file) {
     std::istringstream stream(read_bytes(file, text_limit));
@@ -40,7 +43,7 @@ void write_all(int descriptor, std::string_view text, const fs::path& file) {
     while (!text.empty()) {
         const ssize_t written = ::write(descriptor, text.data(), text.size());
         if (written < 0 && errno == EINTR) continue;
-        require(written >= 0, file.string() + ": cannot write: " + std::strerror(errno),
+        require(written >= 0, file.string() + ": cannot write: " + last_failure(),
                 ExitCode::disk_fault);
         text.remove_prefix(std::size_t(written));
     }
@@ -57,7 +60,7 @@ std::string read_bytes(const fs::path& file, std::uintmax_t limit) {
     require(size <= limit, file.string() + ": has " + std::to_string(size) +
                                " bytes, expected at most " + std::to_string(limit));
     std::ifstream stream(file, std::ios::binary);
-    require(stream.good(), file.string() + ": cannot be opened: " + std::strerror(errno));
+    require(stream.good(), file.string() + ": cannot be opened: " + last_failure());
     std::string bytes(std::size_t(size), '\0');
     stream.read(bytes.data(), std::streamsize(size));
     require(stream.gcount() == std::streamsize(size),
@@ -147,7 +150,7 @@ std::string printable(std::string_view text) {
 void write_text(const fs::path& file, std::string_view text) {
     const fs::path beside = file.string() + ".partial";
     const int descriptor = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    require(descriptor >= 0, beside.string() + ": cannot be created: " + std::strerror(errno),
+    require(descriptor >= 0, beside.string() + ": cannot be created: " + last_failure(),
             ExitCode::cannot_create);
     try {
         write_all(descriptor, text, beside);
@@ -161,6 +164,7 @@ void write_text(const fs::path& file, std::string_view text) {
     ::close(descriptor);
     std::error_code error;
     fs::rename(beside, file, error);
+    if (error) ::unlink(beside.c_str());
     require(!error, file.string() + ": cannot be replaced: " + error.message(),
             ExitCode::cannot_create);
 }

@@ -66,11 +66,13 @@ void put_in_order(Trajectory& trajectory, const fs::path& file) {
         std::ranges::stable_sort(poses, {}, &TimedPose::time_ns);
         trajectory.warnings.push_back(file.string() + ": time goes backwards; rows were sorted");
     }
-    const auto repeated = std::ranges::unique(poses, {}, &TimedPose::time_ns);
-    if (!repeated.empty())
-        trajectory.warnings.push_back(file.string() + ": " + std::to_string(repeated.size()) +
+    const auto same = [](const auto& a, const auto& b) { return a.time_ns == b.time_ns; };
+    const auto repeated = std::unique(poses.begin(), poses.end(), same);
+    if (repeated != poses.end())
+        trajectory.warnings.push_back(file.string() + ": " +
+                                      std::to_string(poses.end() - repeated) +
                                       " rows repeat a stamp; the first of each was used");
-    poses.erase(repeated.begin(), repeated.end());
+    poses.erase(repeated, poses.end());
 }
 
 void append_row(std::string& text, const TimedPose& timed) {
@@ -96,7 +98,7 @@ CheckedPose pose_from_rows(std::span<const double, 16> rows) {
     Pose pose;
     for (int r = 0; r < 3; ++r)
         for (int c = 0; c < 3; ++c)
-            pose.rotation[c][r] = rows[std::size_t(4 * r + c)];
+            pose.rotation[c][r] = rows[std::size_t(4) * std::size_t(r) + std::size_t(c)];
     pose.translation = {rows[3], rows[7], rows[11]};
     const double determinant = glm::determinant(pose.rotation);
     if (std::abs(determinant - 1) > rotation_tolerance)

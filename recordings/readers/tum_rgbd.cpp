@@ -19,8 +19,8 @@ namespace {
 constexpr std::int64_t pairing_tolerance = 20'000'000;  // ns, as the data set's own script
 
 struct KnownLens {
-    const char* long_name;
-    const char* short_name;
+    const char* long_name = "";
+    const char* short_name = "";
     Lens lens;
 };
 
@@ -67,6 +67,7 @@ std::vector<StampedFile> read_list(const fs::path& file, RecordingInfo& info) {
 
 std::vector<std::int64_t> stamps(const std::vector<StampedFile>& files) {
     std::vector<std::int64_t> times;
+    times.reserve(files.size());
     for (const StampedFile& file : files)
         times.push_back(file.time_ns);
     return times;

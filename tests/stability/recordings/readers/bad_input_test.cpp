@@ -317,12 +317,15 @@ TEST(BadText, RandomBytesNeverCrashAReader) {
     }
 }
 
-TEST(WriteTrajectory, FailuresKeepTheOldFile) {
+TEST(WriteTrajectory, FailuresNameTheFileAndLeaveNothingBehind) {
     TemporaryFolder folder;
     expect_refusal([&] { write_tum_trajectory(folder / "none/poses.txt", {}); },
-                   ExitCode::cannot_create, {"poses.txt"});
-    expect_refusal([&] { write_tum_trajectory("/dev/full/poses.txt", {}); },
-                   ExitCode::cannot_create, {"poses.txt"});
+                   ExitCode::cannot_create, {"none/poses.txt"});
+    fs::create_directories(folder / "poses.txt/kept");
+    expect_refusal([&] { write_tum_trajectory(folder / "poses.txt", {}); }, ExitCode::cannot_create,
+                   {"poses.txt"});
+    EXPECT_TRUE(fs::is_directory(folder / "poses.txt/kept"));
+    EXPECT_EQ(folder.entries(), 1);
 }
 
 TEST(Threads, GeometryCheckDoesNotDependOnTheirNumber) {
