@@ -4,6 +4,9 @@
 #include "recordings/base/parallel.h"
 #include "render/filter/filter_weight.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace inlay {
 namespace {
 
@@ -67,7 +70,7 @@ void point_to(const std::vector<Image<float>>& channels, std::size_t at,
 }
 
 struct Filter {
-    const FilterPlanes& now;
+    FilterPlanes& now;
     const FilterPlanes* previous;
     const KernelSettings& kernel;
     std::vector<Span> spans;
@@ -78,7 +81,7 @@ struct Filter {
     void filter_row(int y);
     void add_own_row(RowSums& row, int y) const;
     void add_previous_row(RowSums& row, int y) const;
-    void filter_column_row(int y, std::vector<Image<float>>& result) const;
+    void filter_column_row(int y);  // into now.channels, which the row pass has read
 };
 
 /// Pairs within the row: each weight serves both its pixels.
@@ -131,7 +134,7 @@ void Filter::filter_row(int y) {
     }
 }
 
-void Filter::filter_column_row(int y, std::vector<Image<float>>& result) const {
+void Filter::filter_column_row(int y) {
     const Span span = spans[std::size_t(y)];
     if (span.begin >= span.end) return;
     RowSums row(now.object.width, now.channels.size());
@@ -152,23 +155,26 @@ void Filter::filter_column_row(int y, std::vector<Image<float>>& result) const {
     }
     for (std::size_t c = 0; c < now.channels.size(); ++c) {
         for (int x = span.begin; x < span.end; ++x)
-            result[c](x, y) = smoothed[c](x, y) + row.of_channel(c)[x] / row.of_weights()[x];
+            now.channels[c](x, y) = smoothed[c](x, y) + row.of_channel(c)[x] / row.of_weights()[x];
     }
 }
 
 }  // namespace
 
-std::vector<Image<float>> filter_axis_aligned(const FilterPlanes& now, const FilterPlanes* previous,
+std::vector<Image<float>> filter_axis_aligned(FilterPlanes now, const FilterPlanes* previous,
                                               const KernelSettings& kernel) {
+    if (now.channels.empty() || now.object.empty()) return std::move(now.channels);
     const int width = now.object.width, height = now.object.height;
-    std::vector<Image<float>> result(now.channels.size(), Image<float>(width, height, 0.0f));
-    if (result.empty() || now.object.empty()) return result;
-    Filter filter{now,    previous,
-                  kernel, occupied_spans(now.object),
-                  result, Image<float>(width, height, 1.0f)};
+    std::vector<Image<float>> blank(now.channels.size(), Image<float>(width, height, 0.0f));
+    Filter filter{now,
+                  previous,
+                  kernel,
+                  occupied_spans(now.object),
+                  std::move(blank),
+                  Image<float>(width, height, 1.0f)};
     parallel_rows(height, [&](int y) { filter.filter_row(y); });
-    parallel_rows(height, [&](int y) { filter.filter_column_row(y, result); });
-    return result;
+    parallel_rows(height, [&](int y) { filter.filter_column_row(y); });
+    return std::move(now.channels);
 }
 
 }  // namespace inlay

@@ -30,16 +30,16 @@ struct KernelSettings {
     float normal_cosine = 0.98480775f;  // > 0; normals that turn further do not mix
 };
 
-/// The weight of two pixels (0..1): 0 unless they see the same object and normals within the stop,
-/// else exp(-d^2 (precision + precision') / 4), which is eq. 6.23 with the mean square bandwidth.
 /// The channels of `now`, smoothed along rows, then along columns; 0 where there is no object.
+/// The weight of two pixels is 0 unless they see the same object and normals within the stop, else
+/// exp(-d^2 (precision + precision') / 4), which is eq. 6.23 with the mean square bandwidth.
 /// `previous` (or null) is the previous frame resampled to this frame's pixels; its object is 0
 /// where nothing fits. Both frames share one normalisation, sum (w E + w' E') / sum (w + w'): eq.
 /// 6.26 is printed with a part of the fraction within the numerator. A row of the previous frame
 /// that is only partly there counts for what is there.
 /// Values are added as differences to the pixel's own, so that a constant stays the same to the
 /// bit, and channels of the same bits get the same bits.
-std::vector<Image<float>> filter_axis_aligned(const FilterPlanes& now, const FilterPlanes* previous,
+std::vector<Image<float>> filter_axis_aligned(FilterPlanes now, const FilterPlanes* previous,
                                               const KernelSettings& kernel);
 
 }  // namespace inlay

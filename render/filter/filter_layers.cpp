@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace inlay {
 namespace {
@@ -67,6 +68,7 @@ Receiver completed(const Receiver& receiver, const FilterSettings& settings) {
 Receivers prepare(const NoisyLayers& now, const NoisyLayers* previous, Receiver NoisyLayers::*kind,
                   const FilterSettings& settings) {
     Receivers result;
+    if (!any_object(now.*kind)) return result;
     result.now = prepare(completed(now.*kind, settings), now.lens, now.world_from_camera);
     if (previous == nullptr || result.now.empty) return result;
     const Receiver before = completed(previous->*kind, settings);
@@ -112,12 +114,13 @@ Smoothed smooth(const Receivers& receivers, Images images, Images before,
                 std::array<LightLimits, 2> limits, const FilterSettings& settings) {
     FilterPlanes now = planes_of(receivers.now, images, nullptr);
     set_precision(now, receivers.now, limits[0], settings);
-    const Image<float> width = mean_inverse_width(now);
+    Image<float> width = mean_inverse_width(now);
     if (receivers.previous.empty || before.empty())
-        return {filter_axis_aligned(now, nullptr, kernel_of(settings)), width};
+        return {filter_axis_aligned(std::move(now), nullptr, kernel_of(settings)),
+                std::move(width)};
     FilterPlanes previous = planes_of(receivers.previous, before, &receivers.source);
     set_precision(previous, receivers.previous, limits[1], settings);
-    return {filter_axis_aligned(now, &previous, kernel_of(settings)), width};
+    return {filter_axis_aligned(std::move(now), &previous, kernel_of(settings)), std::move(width)};
 }
 
 /// The two frames at hand and what holds for both.
@@ -141,11 +144,14 @@ Image<float> smooth_light(const Frames& frames, const Receivers& receivers,
     Irradiance& out = is_direct ? result.direct : result.indirect;
     std::vector<const Image<Rgb>*> now, before;
     for (const Layer layer : layers) {
-        out.*layer = Image<Rgb>(frames.now.lens.width, frames.now.lens.height, Rgb(0));
         now.push_back(&(light_of(frames.now).*layer));
         if (frames.previous != nullptr) before.push_back(&(light_of(*frames.previous).*layer));
     }
-    if (receivers.now.empty) return Image<float>(frames.now.lens.width, frames.now.lens.height);
+    if (receivers.now.empty) {
+        for (const Layer layer : layers)
+            out.*layer = Image<Rgb>(frames.now.lens.width, frames.now.lens.height, Rgb(0));
+        return Image<float>(frames.now.lens.width, frames.now.lens.height);
+    }
     LightLimits limits{kind, frames.environment_bandwidth, nullptr, frames.now.samples};
     LightLimits limits_before = limits;
     if (frames.previous != nullptr) limits_before.samples = frames.previous->samples;
@@ -177,6 +183,10 @@ Image<float> smooth_both(const Frames& frames, LightKind kind, Layers& result) {
 /// them.
 void smooth_glossy(const Frames& frames, Layers& result) {
     const NoisyLayers& now = frames.now;
+    if (frames.virtual_.now.empty) {
+        result.s_rv = Image<Rgb>(now.lens.width, now.lens.height, Rgb(0));
+        return;
+    }
     const Image<std::uint32_t>& object = frames.virtual_.now.receiver.object;
     Receivers glossy{frames.virtual_.now, {}, {}};
     bool any = false;
@@ -207,8 +217,8 @@ Layers filter_layers(const NoisyLayers& now, const NoisyLayers* previous,
                 ", expected 0 or more, finite");
     check(now);
     const Image<float> blank(now.lens.width, now.lens.height, 0.0f);
-    Layers result{now.m, now.k_v, now.s_rv, now.direct, now.indirect, blank, blank};
-    if (!settings.enabled || blank.empty()) return result;
+    if (!settings.enabled || blank.empty())
+        return {now.m, now.k_v, now.s_rv, now.direct, now.indirect, blank, blank};
     if (!settings.temporal) previous = nullptr;
     if (previous != nullptr) check(*previous);
     const Frames frames{now,
@@ -217,6 +227,7 @@ Layers filter_layers(const NoisyLayers& now, const NoisyLayers* previous,
                         settings,
                         prepare(now, previous, &NoisyLayers::real, settings),
                         prepare(now, previous, &NoisyLayers::virtual_, settings)};
+    Layers result{now.m, now.k_v, now.s_rv, {}, {}, {}, {}};
     result.bandwidth_direct = smooth_both(frames, LightKind::direct, result);
     result.bandwidth_indirect = smooth_both(frames, LightKind::indirect, result);
     smooth_glossy(frames, result);

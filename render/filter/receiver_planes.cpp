@@ -38,15 +38,10 @@ std::shared_ptr<const SurfacePlanes> surface_planes(const Receiver& r) {
     return planes;
 }
 
-bool any_object(const Receiver& r) {
-    return std::any_of(r.object.pixels.begin(), r.object.pixels.end(),
-                       [](std::uint32_t object) { return object != 0; });
-}
-
 Receiver blank_receiver(int width, int height) {
-    const Image<glm::vec3> vectors(width, height, glm::vec3(0));
-    const Image<float> numbers(width, height, 0.0f);
-    return {Image<std::uint32_t>(width, height, 0), vectors, vectors, numbers, numbers};
+    return {Image<std::uint32_t>(width, height, 0), Image<glm::vec3>(width, height, glm::vec3(0)),
+            Image<glm::vec3>(width, height, glm::vec3(0)), Image<float>(width, height, 0.0f),
+            Image<float>(width, height, 0.0f)};
 }
 
 /// The mean of the rates above 0 around a pixel on its own object; 0 without any.
@@ -84,6 +79,11 @@ float precision_at(double curvature, const WidthLimits& at, const LightLimits& l
 }
 
 }  // namespace
+
+bool any_object(const Receiver& r) {
+    return std::any_of(r.object.pixels.begin(), r.object.pixels.end(),
+                       [](std::uint32_t object) { return object != 0; });
+}
 
 Receiver cleaned(const Receiver& receiver) {
     Receiver result = blank_receiver(receiver.object.width, receiver.object.height);

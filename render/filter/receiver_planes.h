@@ -13,6 +13,9 @@ namespace inlay {
 /// 1e9 m, no length); rates within 0 .. largest_bandwidth; unit normals.
 Receiver cleaned(const Receiver& receiver);
 
+/// Whether a pixel has this kind of receiver.
+bool any_object(const Receiver& receiver);
+
 /// A receiver with what can be said about its surface before the light is known.
 struct PreparedReceiver {
     Receiver receiver;  // cleaned
