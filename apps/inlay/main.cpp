@@ -21,6 +21,7 @@ using inlay::ExitCode;
 /// A new command is one line here, one declaration in command.h and one file.
 const Command commands[] = {
     {"info", "What a recording holds, what was assumed, what is wrong with it", inlay::add_info},
+    {"compare", "How far pictures are from their references: error figures", inlay::add_compare},
 };
 
 // Beyond the codes that commands use, as sysexits has them.
