@@ -44,25 +44,26 @@ Observed observe(const RgbdFrame& frame, const SlamSettings& settings) {
 }
 
 TrackResult certain(const Pose& world_from_camera) {
-    return {world_from_camera, TrackingStatus::tracked, 1, 0, 0};
+    return {world_from_camera, TrackingStatus::tracked, 1, 0, 0, 1};
 }
 
 /// Where the camera may be now: gone on as before, or standing still.
 std::vector<Pose> predictions(const SlamState& state) {
     const Pose& last = state.model->world_from_camera;
-    if (!state.before_last || state.frames_lost > 0) return {last};
+    if (!state.before_last) return {last};
     return {last * (inverse(*state.before_last) * last), last};
 }
 
 TrackResult track(const SlamState& state, const Observed& observed, const SlamSettings& settings) {
-    TrackResult result =
-        track_frame(observed.pyramid, *state.model, predictions(state), settings.track);
+    TrackResult result;
+    if (state.frames_lost == 0) {
+        result = track_frame(observed.pyramid, *state.model, predictions(state), settings.track);
+    }
     if (result.status == TrackingStatus::tracked) return result;
     if (const auto found = find_way_back(state, observed.pyramid, observed.clean, settings)) {
         return *found;
     }
-    const bool trusted = result.status == TrackingStatus::weak && state.frames_lost == 0;
-    if (trusted) return result;
+    if (result.status == TrackingStatus::weak) return result;
     result.status = TrackingStatus::lost;
     result.world_from_camera = state.model->world_from_camera;
     return result;
@@ -70,8 +71,9 @@ TrackResult track(const SlamState& state, const Observed& observed, const SlamSe
 
 TrackResult locate(const SlamState& state, const RgbdFrame& frame, const Observed& observed,
                    const SlamSettings& settings) {
-    if (state.model) return track(state, observed, settings);
-    return certain(frame.recorded_world_from_camera.value_or(Pose{}));
+    if (!state.model) return certain(frame.recorded_world_from_camera.value_or(Pose{}));
+    if (state.volume.bricks.empty()) return certain(state.model->world_from_camera);
+    return track(state, observed, settings);
 }
 
 /// The model's surface; where it has none, what the frame itself saw, as one observation.
@@ -102,6 +104,17 @@ void learn(SlamState& state, const RgbdFrame& frame, const Observed& observed,
 }
 
 }  // namespace
+
+SlamSettings accurate_slam() { return {}; }
+
+SlamSettings fast_slam() {
+    SlamSettings settings;
+    settings.depth.smoothing_radius = 2;
+    settings.fusion.voxel_size = 0.012f;
+    settings.fusion.truncation = 0.048f;
+    settings.track.iterations = 6;
+    return settings;
+}
 
 void validate(const SlamSettings& settings) {
     validate(settings.depth);

@@ -20,6 +20,11 @@ struct SlamSettings {
     TrackSettings track;
 };
 
+/// Settings for --slam accurate (the defaults of every stage) and fast (larger voxels, fewer
+/// iterations).
+SlamSettings accurate_slam();
+SlamSettings fast_slam();
+
 /// Throws Error that names the setting which is out of range.
 void validate(const SlamSettings& settings);
 

@@ -2,15 +2,17 @@
 
 #include "slam/track/se3.h"
 
-#include <algorithm>
-
 namespace inlay {
 namespace {
 
-constexpr double turn = 0.1;           // rad, about what the coarsest level can bridge
-constexpr int turns = 2;               // in each direction
-constexpr int views_tried = 4;         // per frame
-constexpr float least_overlap = 0.3f;  // of the frame with the model, to believe in it
+constexpr double turn = 0.1;            // rad, about what the coarsest level can bridge
+constexpr int turns = 2;                // in each direction
+constexpr int views_tried = 4;          // per frame
+constexpr float least_overlap = 0.5f;   // of the frame with the model, to believe in it
+constexpr float least_inliers = 0.75f;  // share of the overlap
+
+/// The share of the frame's points that a result explains.
+float explained(const TrackResult& result) { return result.inlier_share * result.overlap; }
 
 }  // namespace
 
@@ -30,20 +32,21 @@ std::vector<Pose> poses_around(const Pose& pose) {
 std::optional<TrackResult> find_way_back(const SlamState& state,
                                          std::span<const SurfaceMap> observed,
                                          const Image<float>& depth, const SlamSettings& settings) {
-    TrackSettings strict = settings.track;
-    strict.least_overlap = std::max(strict.least_overlap, least_overlap);
-    const auto tried = [&](const SurfaceMap& model) {
+    std::optional<TrackResult> best;
+    const auto attempt = [&](const SurfaceMap& model) {
         const TrackResult result =
-            track_frame(observed, model, poses_around(model.world_from_camera), strict);
-        return result.status == TrackingStatus::tracked ? std::optional(result) : std::nullopt;
+            track_frame(observed, model, poses_around(model.world_from_camera), settings.track);
+        if (result.status != TrackingStatus::tracked || result.overlap < least_overlap ||
+            result.inlier_share < least_inliers) {
+            return;
+        }
+        if (!best || explained(result) > explained(*best)) best = result;
     };
-    if (const auto found = tried(*state.model)) return found;
+    attempt(*state.model);
     for (const Pose& view : similar_views(state.keyframes, depth, views_tried)) {
-        const SurfaceMap model =
-            raycast_volume(state.volume, observed.front().lens, view, settings.raycast);
-        if (const auto found = tried(model)) return found;
+        attempt(raycast_volume(state.volume, observed.front().lens, view, settings.raycast));
     }
-    return std::nullopt;
+    return best;
 }
 
 }  // namespace inlay

@@ -13,8 +13,8 @@ namespace inlay {
 std::vector<Pose> poses_around(const Pose& pose);
 
 /// Tries to track `observed` (a pyramid) from the last good pose and from the earlier views that
-/// look most like `depth`, each against the model as seen from there. Only a result that is
-/// `tracked`, on a model that covers much of the frame, counts as found.
+/// look most like `depth`, each against the model as seen from there. A result counts if it
+/// explains most of the frame; empty if none does, else the one that explains most.
 std::optional<TrackResult> find_way_back(const SlamState& state,
                                          std::span<const SurfaceMap> observed,
                                          const Image<float>& depth, const SlamSettings& settings);

@@ -8,10 +8,11 @@
 namespace inlay {
 
 struct TrajectoryError {
-    double rms = 0;        // m
-    double mean = 0;       // m
-    double largest = 0;    // m
-    double rms_angle = 0;  // rad
+    double rms = 0;      // m
+    double mean = 0;     // m
+    double largest = 0;  // m
+    double rms_angle =
+        0;  // rad; of absolute errors only as good as the alignment (a straight path has none)
 };
 
 /// The rigid motion that takes `estimated` positions closest to `reference` ones, in the least

@@ -17,7 +17,7 @@ constexpr float least_scale = 0.3f;         // of depth_sigma(): below lies quan
 
 /// A pose being improved.
 struct Attempt {
-    Pose model_from_observed;
+    Pose start, model_from_observed;
     int iterations = 0;
     int free_axes = 0;
 };
@@ -59,7 +59,8 @@ Attempt best_attempt(std::span<const SurfaceMap> observed, const SurfaceMap& mod
     Attempt best;
     int most = -1;
     for (const Pose& start : starts) {
-        Attempt attempt{inverse(model.world_from_camera) * start};
+        const Pose model_from_observed = inverse(model.world_from_camera) * start;
+        Attempt attempt{model_from_observed, model_from_observed};
         solve_level(attempt, level, model, pairing_of(coarsest, settings), settings);
         const int inliers = verdict(attempt, level, model, coarsest, settings).inliers;
         if (inliers <= most) continue;
@@ -69,10 +70,14 @@ Attempt best_attempt(std::span<const SurfaceMap> observed, const SurfaceMap& mod
     return best;
 }
 
-TrackingStatus status_of(const TrackResult& result, const IcpSystem& system,
-                         const TrackSettings& settings) {
-    const bool overlaps = float(system.seen) >= settings.least_overlap * float(system.observed);
-    if (system.seen == 0 || !overlaps || result.inlier_share < settings.weak_share ||
+bool plausible(const Attempt& attempt, const TrackSettings& settings) {
+    const Pose move = inverse(attempt.start) * attempt.model_from_observed;
+    return glm::length(move.translation) <= double(settings.largest_move) &&
+           rotation_angle(Pose{}, move) <= double(settings.largest_turn);
+}
+
+TrackingStatus status_of(const TrackResult& result, const TrackSettings& settings) {
+    if (result.overlap < settings.least_overlap || result.inlier_share < settings.weak_share ||
         result.rms_residual > settings.largest_residual) {
         return TrackingStatus::lost;
     }
@@ -108,11 +113,13 @@ TrackResult track_frame(std::span<const SurfaceMap> observed, const SurfaceMap& 
     result.world_from_camera =
         orthonormalized(model.world_from_camera * attempt.model_from_observed);
     result.iterations = attempt.iterations;
+    if (system.observed > 0) result.overlap = float(system.seen) / float(system.observed);
     if (system.seen > 0) result.inlier_share = float(system.inliers) / float(system.seen);
     if (system.inliers > 0) {
         result.rms_residual = float(std::sqrt(system.squared_residual / system.inliers));
     }
-    result.status = status_of(result, system, settings);
+    result.status =
+        plausible(attempt, settings) ? status_of(result, settings) : TrackingStatus::lost;
     return result;
 }
 

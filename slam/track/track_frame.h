@@ -16,19 +16,21 @@ struct TrackResult {
     float inlier_share = 0;  // 0..1 of the points that fall on the model
     float rms_residual = 0;  // m, over the inliers
     int iterations = 0;
+    float overlap = 0;  // 0..1 of the frame's points that fall on the model
 };
 
 struct TrackSettings {
-    int levels = 3;                  // of the pyramid, each half as large
-    int iterations = 12;             // at most, per level
-    float coarse_distance = 0.15f;   // m, largest distance of a pair at the coarsest level
-    float fine_distance = 0.04f;     // m, at the finest level
-    float largest_angle = 0.6f;      // rad, between the normals of a pair
-    float degenerate = 1e-3f;        // share of the mean information below which a direction
-                                     // is not moved
+    int levels = 3;                 // of the pyramid, each half as large
+    int iterations = 12;            // at most, per level
+    float coarse_distance = 0.15f;  // m, largest distance of a pair at the coarsest level
+    float fine_distance = 0.04f;    // m, at the finest level
+    float largest_angle = 0.6f;     // rad, between the normals of a pair
+    float degenerate = 5e-3f;  // directions with less than this share of the mean information stay
     float tracked_share = 0.5f;      // inlier share for `tracked`
     float weak_share = 0.25f;        // inlier share for `weak`; below: lost
     float least_overlap = 0.1f;      // share of points on the model; below: lost
+    float largest_move = 0.3f;       // m, from where it started; above: lost
+    float largest_turn = 0.5f;       // rad, likewise
     float largest_residual = 0.02f;  // m, rms; above: lost
 };
 

@@ -56,13 +56,19 @@ float VolumeSampler::distance(const glm::vec3& p) {
 }
 
 glm::vec3 VolumeSampler::gradient(const glm::vec3& p) {
+    const float here = distance(p);
     glm::vec3 result(0);
     for (int axis = 0; axis < 3; ++axis) {
         glm::vec3 offset(0);
         offset[axis] = 1;
         const float ahead = distance(p + offset), behind = distance(p - offset);
-        if (!is_known(ahead) || !is_known(behind)) return glm::vec3(0);
-        result[axis] = (ahead - behind) / 2;
+        const bool both = is_known(ahead) && is_known(behind);
+        if (!both && (!is_known(here) || is_known(ahead) == is_known(behind))) return glm::vec3(0);
+        if (both) {
+            result[axis] = (ahead - behind) / 2;
+        } else {
+            result[axis] = is_known(ahead) ? ahead - here : here - behind;
+        }
     }
     return result;
 }

@@ -23,7 +23,8 @@ public:
     /// Distance (of the truncation, -1..1); unknown_distance where one of the eight voxels around
     /// the point was never seen.
     float distance(const glm::vec3& p);
-    /// Gradient of the distance per voxel, over two voxels; 0 where it is not known.
+    /// Gradient of the distance per voxel, over two voxels, or one at the border of what was seen;
+    /// 0 where it is not known.
     glm::vec3 gradient(const glm::vec3& p);
     /// The voxel at a lattice position, or null.
     const Voxel* voxel(const glm::ivec3& v);
