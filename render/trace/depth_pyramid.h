@@ -13,7 +13,7 @@ struct ScreenTracerSettings {
     float thickness = 0.02f;            // m, of every surface, along its normal
     float thickness_per_depth = 0.01f;  // 1, more of it per metre of depth: the sensor's noise
     float largest_tilt = 0.05f;         // share of depth that a facet may rise or fall in its pixel
-    float offset = 2e-3f;               // m, how far off a real surface rays start
+    float offset = 0.01f;               // m, how far off a real surface rays start
 };
 
 /// Throws Error unless thicknesses and offset are >= 0 and the tilt within 0..0.5.

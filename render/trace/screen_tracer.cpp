@@ -90,36 +90,59 @@ struct Found {
     glm::ivec2 pixel;
 };
 
+/// Where a walk stands: at s, about to enter the block of 2^level px that holds pixel (x, y).
+struct Place {
+    int x, y, level;
+    double s;
+};
+
+/// One level up for each that the step from `before` has entered a new block of, two at most: most
+/// of a ray is free, but the surface it has just left is near.
+int climb(const Place& before, const Place& after, int top) {
+    int level = before.level;
+    while (level < std::min(before.level + 2, top)) {
+        const int up = level + 1;
+        if ((after.x >> up) == (before.x >> up) && (after.y >> up) == (before.y >> up)) break;
+        level = up;
+    }
+    return level;
+}
+
+/// The place behind the block, left at s = `end`; at a corner, x changes before y.
+Place beyond(const Axis& x_axis, const Axis& y_axis, const Place& at, bool along_x, double end) {
+    const int level = at.level, block_x = at.x >> level, block_y = at.y >> level;
+    if (along_x) {
+        const int y = level == 0 ? at.y : y_axis.reached(at.y, block_y, level, end, false);
+        return {x_axis.beyond(block_x, level), y, level, end};
+    }
+    const int x = level == 0 ? at.x : x_axis.reached(at.x, block_x, level, end, true);
+    return {x, y_axis.beyond(block_y, level), level, end};
+}
+
 std::optional<Found> walk(const DepthPyramid& map, const ImageRay& seen) {
     const Axis x_axis(seen.start.x, seen.step.x), y_axis(seen.start.y, seen.step.y);
-    const int top = int(map.levels.size());
-    int x = nearest(seen.start.x, map.lens.width), y = nearest(seen.start.y, map.lens.height);
-    bool skip = starts_inside(seen, map, {x, y});
-    int level = 0;
-    double s = 0;
-    while (map.facets.contains(x, y)) {
-        const int block_x = x >> level, block_y = y >> level;
-        const double leaving_x = x_axis.leaving(block_x, level);
-        const double leaving_y = y_axis.leaving(block_y, level);
-        const double end = std::max(s, std::min({leaving_x, leaving_y, 1.0}));
-        if (level > 0) {
-            if (may_meet(map.levels[std::size_t(level - 1)](block_x, block_y), seen.inverse_z(s),
-                         seen.inverse_z(end))) {
-                --level;
+    Place at{nearest(seen.start.x, map.lens.width), nearest(seen.start.y, map.lens.height), 0, 0};
+    bool skip = starts_inside(seen, map, {at.x, at.y});
+    while (map.facets.contains(at.x, at.y)) {
+        const int block_x = at.x >> at.level, block_y = at.y >> at.level;
+        const double leaving_x = x_axis.leaving(block_x, at.level);
+        const double leaving_y = y_axis.leaving(block_y, at.level);
+        const double end = std::max(at.s, std::min({leaving_x, leaving_y, 1.0}));
+        if (at.level > 0) {
+            const auto& ranges = map.levels[std::size_t(at.level - 1)];
+            if (may_meet(ranges(block_x, block_y), seen.inverse_z(at.s), seen.inverse_z(end))) {
+                --at.level;
                 continue;
             }
-        } else if (!skip && s < end) {  // a corner that is only touched is not crossed
-            if (const auto at = meet(seen, map.facets(x, y), {x, y}, s, end))
-                return Found{*at, {x, y}};
+        } else if (!skip && at.s < end) {  // a corner that is only touched is not crossed
+            if (const auto s = meet(seen, map.facets(at.x, at.y), {at.x, at.y}, at.s, end))
+                return Found{*s, {at.x, at.y}};
         }
         skip = false;
         if (end >= 1) break;
-        const bool along_x = leaving_x <= leaving_y;
-        y = along_x ? y_axis.reached(y, block_y, level, end, false) : y_axis.beyond(block_y, level);
-        x = along_x ? x_axis.beyond(block_x, level) : x_axis.reached(x, block_x, level, end, true);
-        s = end;
-        const int up = level + 1;
-        if (up <= top && ((x >> up) != (block_x >> 1) || (y >> up) != (block_y >> 1))) level = up;
+        const Place before = at;
+        at = beyond(x_axis, y_axis, before, leaving_x <= leaving_y, end);
+        at.level = climb(before, at, int(map.levels.size()));
     }
     return std::nullopt;
 }
