@@ -17,5 +17,9 @@ struct Command {
 
 std::function<int()> add_compare(CLI::App& subcommand);
 std::function<int()> add_info(CLI::App& subcommand);
+std::function<int()> add_reconstruct(CLI::App& subcommand);
+std::function<int()> add_record(CLI::App& subcommand);
+std::function<int()> add_render(CLI::App& subcommand);
+std::function<int()> add_replay(CLI::App& subcommand);
 
 }  // namespace inlay

@@ -20,7 +20,10 @@ using inlay::ExitCode;
 
 /// A new command is one line here, one declaration in command.h and one file.
 const Command commands[] = {
+    {"replay", "The main job: a recording with virtual objects in it", inlay::add_replay},
+    {"render", "One view of a scene, without a recording", inlay::add_render},
     {"info", "What a recording holds, what was assumed, what is wrong with it", inlay::add_info},
+    {"reconstruct", "Where the camera was, and the room as a mesh", inlay::add_reconstruct},
     {"compare", "How far pictures are from their references: error figures", inlay::add_compare},
 };
 

@@ -51,7 +51,8 @@ Settings settings_from(const RenderOptions& o, const CommonOptions& common) {
     set("filter.enabled", o.filter);
     set("filter.constants", o.constants);
     set("filter.temporal", o.temporal);
-    for (const std::string& assignment : o.set) apply_setting(settings, assignment);
+    for (const std::string& assignment : o.set)
+        apply_setting(settings, assignment);
     validate(settings);
     return settings;
 }

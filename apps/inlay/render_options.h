@@ -1,8 +1,9 @@
 // Options of the commands that simulate light: replay and render.
 #pragma once
 
-#include "apps/inlay/options.h"
 #include "composite/session/settings.h"
+
+#include "apps/inlay/options.h"
 #include <CLI/App.hpp>
 
 #include <string>
@@ -11,19 +12,20 @@
 namespace inlay {
 
 struct RenderOptions {
-    std::string quality = "standard";  // draft, standard or reference
-    int samples = 0;                   // per pixel in all; 0 = by quality
+    std::string quality = "standard";         // draft, standard or reference
+    int samples = 0;                          // per pixel in all; 0 = by quality
     std::string filter, constants, temporal;  // "" = by quality
     std::vector<std::string> set;             // name=value
     bool print_settings = false;
-    std::string layers;                // comma-separated names, or all
-    std::vector<std::string> assets;   // folders
+    std::string layers;               // comma-separated names, or all
+    std::vector<std::string> assets;  // folders
 };
 
 /// The options refer to `options`, which must outlive the parsing.
 void add_render_options(CLI::App& subcommand, RenderOptions& options);
 
-/// Defaults, then the quality's, then single options, then --set, in this order. Throws Error (usage).
+/// Defaults, then the quality's, then single options, then --set, in this order. Throws Error
+/// (usage).
 Settings settings_from(const RenderOptions& options, const CommonOptions& common);
 
 /// name=value, one a line, with units as comments.

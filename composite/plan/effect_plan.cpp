@@ -29,20 +29,22 @@ const EffectRule rules[] = {
      "irradiances are noisy", "nothing to filter, or --filter off"},
     {"temporal_filter",
      [](const SceneFacts& f, const FilterSettings& s) {
-         return visible(f) && s.enabled && s.temporal && !f.first_frame;
+         return visible(f) && s.enabled && s.temporal && !f.first_frame && !f.moving;
      },
-     "the frame before is at hand", "no frame before, or --temporal off"},
+     "the frame before is at hand, and nothing virtual has moved since",
+     "no frame before, something virtual has moved since, or --temporal off"},
 };
 
 }  // namespace
 
-SceneFacts gather_facts(const VirtualScene& scene, bool lit) {
+SceneFacts gather_facts(const VirtualScene& scene, bool lit, double time, double time_before) {
     SceneFacts facts;
     facts.lit = lit;
     for (const SceneObject& object : scene.objects) {
         if (object.real) continue;
         ++facts.objects;
-        facts.moving = facts.moving || object.motion.size() > 1;
+        facts.moving =
+            facts.moving || transform_at(object, time) != transform_at(object, time_before);
         for (const ObjectPart& part : object.parts)
             facts.glossy = facts.glossy || !std::holds_alternative<Diffuse>(part.material);
     }

@@ -13,13 +13,14 @@ namespace inlay {
 struct SceneFacts {
     int objects = 0;           // virtual ones
     bool glossy = false;       // one of them has a glossy lobe
-    bool moving = false;       // one of them moves
+    bool moving = false;       // one of them has moved since the frame before
     bool lit = false;          // the environment sends light
     bool tracked = true;       // the camera's pose is known
     bool first_frame = false;  // there is no frame before to filter with
 };
 
-SceneFacts gather_facts(const VirtualScene& scene, bool lit);
+/// `time` and `time_before` (s) are those of this frame and of the one before it.
+SceneFacts gather_facts(const VirtualScene& scene, bool lit, double time, double time_before);
 
 struct PlannedEffect {
     std::string name;

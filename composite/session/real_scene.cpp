@@ -1,10 +1,56 @@
 #include "composite/session/real_scene.h"
 
+#include "recordings/base/parallel.h"
+#include "render/trace/map_primary.h"
+#include "render/trace/screen_real_geometry.h"
 #include "slam/mesh/extract_mesh.h"
 
 #include <utility>
 
 namespace inlay {
+namespace {
+
+/// The photograph as a lens without distortion would have taken it; nearest pixels, black outside.
+Image<Rgb> undistorted(const Image<Rgb>& photo, const Lens& lens) {
+    Image<Rgb> result(photo.width, photo.height, Rgb(0));
+    const Lens ideal = pinhole(lens);
+    parallel_rows(photo.height, [&](int y) {
+        for (int x = 0; x < photo.width; ++x) {
+            const auto pixel = nearest_pixel(lens, project(lens, unproject(ideal, {x, y})));
+            if (pixel) result(x, y) = photo(pixel->x, pixel->y);
+        }
+    });
+    return result;
+}
+
+/// Rays are straight in the image of a pinhole only: a distorted lens takes a second map.
+void march_in_image(RealScene& real, const SlamState& slam, const Settings& settings) {
+    const PhotographedSurface primary{*real.surface, *real.photo};
+    real.traced_surface = real.surface;
+    real.traced_photo = real.photo;
+    const Lens& lens = real.surface->lens;
+    if (distorted(lens)) {
+        real.traced_surface = std::make_shared<const SurfaceMap>(raycast_volume(
+            slam.volume, pinhole(lens), real.surface->world_from_camera, settings.slam.raycast));
+        real.traced_photo = std::make_shared<const Image<Rgb>>(undistorted(*real.photo, lens));
+    }
+    const ScreenTracerSettings& screen = settings.geometry.screen;
+    auto pyramid =
+        std::make_shared<const DepthPyramid>(make_depth_pyramid(*real.traced_surface, screen));
+    real.geometry = screen_real_geometry({*real.traced_surface, *real.traced_photo},
+                                         std::move(pyramid), screen);
+    real.geometry.primary = [&map = primary.surface](const RayPacket& rays, const auto& pixels) {
+        return map_primary(map, rays, pixels);
+    };
+}
+
+}  // namespace
+
+SlamStep track_frame_of(SlamState& slam, const RgbdFrame& frame, const Settings& settings) {
+    std::optional<Pose> known;
+    if (settings.use_recorded_poses) known = frame.recorded_world_from_camera;
+    return advance_slam(slam, frame, settings.slam, known);
+}
 
 void update_model(TracedModel& model, const SlamState& slam, int frames_seen,
                   const GeometrySettings& settings) {
@@ -16,13 +62,17 @@ void update_model(TracedModel& model, const SlamState& slam, int frames_seen,
     model.frame = due;
 }
 
-RealScene describe_real_scene(SurfaceMap surface, Image<Rgb> photo, const SlamState&,
+RealScene describe_real_scene(SurfaceMap surface, Image<Rgb> photo, const SlamState& slam,
                               const TracedModel& model, const Settings& settings) {
     RealScene real;
     real.surface = std::make_shared<const SurfaceMap>(std::move(surface));
     real.photo = std::make_shared<const Image<Rgb>>(std::move(photo));
     const PhotographedSurface seen{*real.surface, *real.photo};
     const GeometrySettings& geometry = settings.geometry;
+    if (geometry.kind == RealGeometryKind::screen) {
+        march_in_image(real, slam, settings);
+        return real;
+    }
     if (geometry.kind == RealGeometryKind::model) {
         real.mesh = model.mesh;
     } else {

@@ -10,11 +10,16 @@
 
 namespace inlay {
 
+/// Tracks (or takes the recorded pose of) one frame, fuses it and raycasts the model.
+SlamStep track_frame_of(SlamState& slam, const RgbdFrame& frame, const Settings& settings);
+
 /// Keeps what its RealGeometry refers to; movable, since all of it lies behind pointers.
 struct RealScene {
     std::shared_ptr<const SurfaceMap> surface;
-    std::shared_ptr<const Image<Rgb>> photo;  // linear
-    std::shared_ptr<const EmbreeScene> mesh;  // the map's or the model's triangles
+    std::shared_ptr<const Image<Rgb>> photo;           // linear
+    std::shared_ptr<const EmbreeScene> mesh;           // the map's or the model's triangles
+    std::shared_ptr<const SurfaceMap> traced_surface;  // for RealGeometryKind::screen
+    std::shared_ptr<const Image<Rgb>> traced_photo;
     RealGeometry geometry;
 };
 

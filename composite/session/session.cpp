@@ -1,33 +1,13 @@
 #include "composite/session/session.h"
 
+#include "composite/session/stop_watch.h"
 #include "render/filter/environment_bandwidth.h"
 #include "render/filter/filter_layers.h"
 
-#include <chrono>
 #include <utility>
 
 namespace inlay {
 namespace {
-
-/// Milliseconds since it was last asked.
-class StopWatch {
-public:
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
-        last_ = now;
-        return ms;
-    }
-
-private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-SlamStep track(Session& session, const RgbdFrame& frame) {
-    std::optional<Pose> known;
-    if (session.settings.use_recorded_poses) known = frame.recorded_world_from_camera;
-    return advance_slam(session.slam, frame, session.settings.slam, known);
-}
 
 NoisyLayers sample(Session& session, const RealScene& real, const RgbdFrame& frame,
                    RayCounts& rays) {
@@ -66,18 +46,20 @@ OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work) {
     OutputFrame out;
     StopWatch watch;
 
-    SlamStep slam = track(session, frame);
+    SlamStep slam = track_frame_of(session.slam, frame, settings);
     out.tracking = slam.tracking;
     update_model(session.model, session.slam, session.frames_seen++, settings.geometry);
     out.ms.slam = watch.lap();
     const std::shared_ptr<const NoisyLayers> previous = std::exchange(session.previous, nullptr);
     if (work == FrameWork::track) return out;
 
-    SceneFacts facts = gather_facts(session.scene, session.environment.mean_luminance > 0);
+    SceneFacts facts = gather_facts(session.scene, session.environment.mean_luminance > 0,
+                                    frame.time, session.time_before);
+    session.time_before = frame.time;
     facts.tracked = slam.tracking.status != TrackingStatus::lost;
     facts.first_frame = !previous;
     out.plan = plan_effects(facts, settings.filter);
-    const Photo photo = linearise(frame.color);
+    Photo photo = linearise(frame.color);
     out.ms.plan = watch.lap();
 
     if (out.plan.has("environment_indirect")) {
@@ -85,19 +67,20 @@ OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work) {
                                                    session.slam, session.model, settings);
         session.previous =
             std::make_shared<const NoisyLayers>(sample(session, real, frame, out.rays));
-        out.surface = real.surface;
-        out.camera = real.photo;
         out.ms.trace = watch.lap();
     }
     if (work == FrameWork::sample) return out;
 
     out.noisy = session.previous;
-    out.layers = out.noisy ? filter_layers(*out.noisy, previous.get(),
-                                           session.environment_bandwidth, settings.filter)
-                           : nothing_simulated(photo.linear);
+    out.layers =
+        out.noisy
+            ? filter_layers(*out.noisy, out.plan.has("temporal_filter") ? previous.get() : nullptr,
+                            session.environment_bandwidth, settings.filter)
+            : nothing_simulated(photo.linear);
     out.ms.filter = watch.lap();
 
     out.composite = composite(photo, out.layers, settings.blend);
+    out.camera = std::move(photo.linear);
     out.ms.composite = watch.lap();
     return out;
 }

@@ -24,6 +24,7 @@ struct Session {
     TracedModel model;
     EmbreeSceneCache virtual_structures;
     std::shared_ptr<const NoisyLayers> previous;  // of the frame before, if it was sampled
+    double time_before = 0;                       // s, of `previous`
     int frames_seen = 0;
 };
 
@@ -41,8 +42,7 @@ struct OutputFrame {
     EffectPlan plan;
     std::shared_ptr<const NoisyLayers> noisy;  // null where nothing was simulated
     Layers layers;
-    std::shared_ptr<const SurfaceMap> surface;
-    std::shared_ptr<const Image<Rgb>> camera;  // the photograph, linear
+    Image<Rgb> camera;  // the photograph, linear
     RayCounts rays;
     StageTimes ms;
 };

@@ -108,6 +108,10 @@ std::vector<SettingRow> render_rows() {
         row("geometry.visibility_tolerance", "m", INLAY_MEMBER(geometry.visibility_tolerance)),
         row("geometry.max_step", "share of depth", INLAY_MEMBER(geometry.max_step)),
         row("geometry.model_interval", "frames", INLAY_MEMBER(geometry.model_interval)),
+        row("geometry.screen_thickness", "m", INLAY_MEMBER(geometry.screen.thickness)),
+        row("geometry.screen_thickness_per_depth", "1",
+            INLAY_MEMBER(geometry.screen.thickness_per_depth)),
+        row("geometry.screen_offset", "m", INLAY_MEMBER(geometry.screen.offset)),
         row("trace.primary", "rays per pixel", INLAY_MEMBER(trace.primary)),
         row("trace.secondary", "samples per primary ray", INLAY_MEMBER(trace.secondary)),
         row("trace.seed", "", INLAY_MEMBER(trace.seed)),
@@ -143,6 +147,7 @@ void validate(const Settings& s) {
     validate(s.trace);
     validate(s.filter);
     validate(s.blend);
+    validate(s.geometry.screen);
     require(s.geometry.offset >= 0, "geometry.offset must not be negative", ExitCode::usage);
     require(s.geometry.visibility_tolerance > 0, "geometry.visibility_tolerance must be positive",
             ExitCode::usage);

@@ -3,6 +3,7 @@
 
 #include "composite/blend/differential.h"
 #include "render/filter/filter_settings.h"
+#include "render/trace/depth_pyramid.h"
 #include "render/trace/two_mode_sampler.h"
 #include "slam/mapping/advance_slam.h"
 
@@ -25,6 +26,7 @@ struct GeometrySettings {
     float visibility_tolerance = 0.05f;  // m, within which the photograph sees a point of the model
     float max_step = 0.05f;              // share of depth; steeper steps of the map are not joined
     int model_interval = 10;             // frames between two extractions of the model, >= 1
+    ScreenTracerSettings screen;
 };
 
 struct Settings {

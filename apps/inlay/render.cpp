@@ -1,0 +1,125 @@
+// `inlay render`: one view of a scene, without a recording.
+#include "composite/session/named_layers.h"
+#include "composite/session/render_view.h"
+#include "composite/write/write_exr.h"
+#include "composite/write/write_png.h"
+#include "recordings/base/check.h"
+#include "render/scene/place_object.h"
+#include "render/scene/scene_file.h"
+
+#include "apps/inlay/command.h"
+#include "apps/inlay/render_options.h"
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+namespace inlay {
+namespace {
+
+struct RenderCommandOptions {
+    CommonOptions common;
+    RenderOptions render;
+    std::string scene, out;
+    double time = 0;          // s
+    int photo_samples = 256;  // per pixel
+    bool explain = false;
+};
+
+VirtualScene scene_of(const SceneFile& file, const std::string& name) {
+    const auto no_surface = [&](int) -> SurfaceMap {
+        throw Error(ExitCode::bad_data, name +
+                                            ": 'place' needs a recording; `render` has none: give "
+                                            "the object a 'transform'");
+    };
+    return resolve_placements(file, no_surface, file.view->up);
+}
+
+void write_result(const RenderCommandOptions& o, const OutputFrame& out,
+                  const std::vector<std::string>& layers) {
+    const std::filesystem::path file = o.out;
+    if (file.extension() == ".png") {
+        write_png(file, out.composite.display);
+        return;
+    }
+    require(file.extension() == ".exr", "--out " + o.out + ": expected a name in .exr or .png",
+            ExitCode::usage);
+    const NamedLayers named = named_layers(out, layers);
+    ExrFile exr;
+    exr.picture = &out.composite.linear;
+    exr.layers = named.layers;
+    write_exr(file, exr);
+}
+
+void print_totals(const RenderCommandOptions& o, const OutputFrame& out) {
+    const RayCounts& r = out.rays;
+    const std::uint64_t rays =
+        r.primary + r.virtual_shadow + r.virtual_indirect + r.real_shadow + r.real_indirect;
+    if (o.common.json) {
+        const nlohmann::ordered_json json{{"out", o.out},
+                                          {"rays", rays},
+                                          {"dropped_samples", out.noisy->dropped_samples},
+                                          {"ms",
+                                           {{"trace", out.ms.trace},
+                                            {"filter", out.ms.filter},
+                                            {"composite", out.ms.composite}}}};
+        std::cout << json.dump(2) << "\n";
+    } else {
+        spdlog::info("{}: trace {:.0f} ms, filter {:.0f} ms, {} rays", o.out, out.ms.trace,
+                     out.ms.filter, rays);
+    }
+}
+
+int run(const RenderCommandOptions& o) {
+    apply(o.common);
+    const Settings settings = settings_from(o.render, o.common);
+    if (o.render.print_settings) {
+        print_settings(settings);
+        return 0;
+    }
+    const std::vector<std::string> layers = parse_layers(o.render.layers);
+    const SceneFile file =
+        load_scene_file(o.scene, {o.render.assets.begin(), o.render.assets.end()});
+    for (const std::string& warning : file.warnings)
+        spdlog::warn("{}", warning);
+    require(file.view.has_value(),
+            o.scene + ": `render` needs to know from where the scene is seen: add a 'view'");
+    const VirtualScene scene = scene_of(file, o.scene);
+    const LoadedEnvironment light = load_environment(file.environment, file.view->up, {0, 0, 1});
+    const EnvironmentSampler environment = make_environment_sampler(light.map);
+    if (o.explain) {
+        std::cout << explain(plan_effects(
+            gather_facts(scene, environment.mean_luminance > 0, o.time, o.time), settings.filter));
+        return 0;
+    }
+    const OutputFrame out =
+        render_view({scene, environment, file.view->lens, file.view->world_from_camera, o.time},
+                    settings, o.photo_samples);
+    write_result(o, out, layers);
+    print_totals(o, out);
+    return 0;
+}
+
+}  // namespace
+
+std::function<int()> add_render(CLI::App& subcommand) {
+    const auto o = std::make_shared<RenderCommandOptions>();
+    subcommand.add_option("SCENE", o->scene, "the scene file, with a 'view'")->required();
+    subcommand.add_option("--out", o->out, "the picture to write, .exr or .png")->required();
+    subcommand.add_option("--time", o->time, "s, for objects that move")->capture_default_str();
+    subcommand
+        .add_option("--photo-samples", o->photo_samples,
+                    "paths per pixel of the picture that stands for the photograph")
+        ->check(CLI::Range(2, 1 << 20))
+        ->capture_default_str();
+    subcommand.add_flag("--explain", o->explain,
+                        "print which effects are simulated and why, and stop");
+    add_common_options(subcommand, o->common);
+    add_render_options(subcommand, o->render);
+    return [o] { return run(*o); };
+}
+
+}  // namespace inlay

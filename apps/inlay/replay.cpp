@@ -1,0 +1,181 @@
+// `inlay replay`: the main job, a recording with virtual objects in it.
+#include "composite/session/named_layers.h"
+#include "composite/session/prepare_scene.h"
+#include "composite/session/stop_watch.h"
+#include "recordings/base/check.h"
+
+#include "apps/inlay/command.h"
+#include "apps/inlay/frame_list.h"
+#include "apps/inlay/frame_selection.h"
+#include "apps/inlay/interrupt.h"
+#include "apps/inlay/progress.h"
+#include "apps/inlay/render_options.h"
+#include "apps/inlay/replay_output.h"
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+#include <iostream>
+#include <memory>
+
+namespace inlay {
+namespace {
+
+struct ReplayOptions {
+    CommonOptions common;
+    RecordingOptions recording;
+    RenderOptions render;
+    std::string scene, out, video, shard;
+    std::string poses, geometry;  // "" = by settings
+    bool resume = false, explain = false;
+};
+
+/// What a run adds up to, for --json and the closing line.
+struct Totals {
+    int frames = 0, lost = 0;
+    std::uint64_t pixels = 0, influenced = 0, dropped = 0;
+    StageTimes ms;  // sums
+
+    void add(const FrameReport& report, const OutputFrame& out) {
+        ++frames;
+        lost += report.tracking == TrackingStatus::lost;
+        pixels += out.composite.linear.pixels.size();
+        influenced += report.pixels.influenced;
+        dropped += out.noisy ? out.noisy->dropped_samples : 0;
+        ms.load += report.ms.load;
+        ms.slam += report.ms.slam;
+        ms.trace += report.ms.trace;
+        ms.filter += report.ms.filter;
+        ms.composite += report.ms.composite;
+        ms.write += report.ms.write;
+        ms.total += report.ms.total;
+    }
+};
+
+Settings settings_of(const ReplayOptions& o) {
+    Settings settings = settings_from(o.render, o.common);
+    if (!o.poses.empty()) apply_setting(settings, "slam.poses=" + o.poses);
+    if (!o.geometry.empty()) apply_setting(settings, "geometry.kind=" + o.geometry);
+    return settings;
+}
+
+EffectPlan plan_of(const Session& session) {
+    return plan_effects(gather_facts(session.scene, session.environment.mean_luminance > 0, 0, 0),
+                        session.settings.filter);
+}
+
+void print_totals(const ReplayOptions& o, const Totals& t) {
+    const double unchanged = t.pixels > 0 ? 1 - double(t.influenced) / double(t.pixels) : 1.0;
+    const double n = std::max(1, t.frames);
+    if (o.common.json) {
+        const nlohmann::ordered_json json{{"out", o.out},
+                                          {"frames", t.frames},
+                                          {"lost", t.lost},
+                                          {"unchanged_share", unchanged},
+                                          {"dropped_samples", t.dropped},
+                                          {"mean_ms",
+                                           {{"load", t.ms.load / n},
+                                            {"slam", t.ms.slam / n},
+                                            {"trace", t.ms.trace / n},
+                                            {"filter", t.ms.filter / n},
+                                            {"composite", t.ms.composite / n},
+                                            {"write", t.ms.write / n},
+                                            {"total", t.ms.total / n}}}};
+        std::cout << json.dump(2) << "\n";
+        return;
+    }
+    spdlog::info(
+        "{} frames in {}, {} with tracking lost; {:.1f} % of the bytes are the recorded "
+        "ones; {:.0f} ms a frame (slam {:.0f}, trace {:.0f}, filter {:.0f})",
+        t.frames, o.out, t.lost, 100 * unchanged, t.ms.total / n, t.ms.slam / n, t.ms.trace / n,
+        t.ms.filter / n);
+    if (t.dropped > 0) spdlog::warn("{} samples were not finite and were left out", t.dropped);
+}
+
+/// Composites what is not finished yet. Returns false if it was interrupted.
+bool play(Session& session, const Recording& recording, const std::vector<int>& frames,
+          ReplayOutput& output, const ReplayOptions& o, Totals& totals) {
+    std::vector<int> open;
+    for (const int frame : frames)
+        if (!output.finished.contains(frame)) open.push_back(frame);
+    const auto tasks = plan_frames(recording.info.frames, open, session.settings.filter.temporal);
+    Progress progress("frames", int(tasks.size()), o.common.quiet);
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+        if (interrupted()) return false;
+        StopWatch watch;
+        const RgbdFrame frame = recording.load(tasks[i].frame);
+        const double load_ms = watch.lap();
+        const OutputFrame out = advance(session, frame, tasks[i].work);
+        if (out.tracking.status == TrackingStatus::lost)
+            spdlog::warn("frame {}: tracking is lost", frame.index);
+        if (tasks[i].work == FrameWork::compose)
+            totals.add(write_frame(output, frame, out, load_ms), out);
+        progress.advance_to(int(i) + 1);
+    }
+    return true;
+}
+
+double rate_of(const RecordingInfo& info) {
+    const double duration = info.times.back() - info.times.front();
+    return duration > 0 ? double(info.times.size() - 1) / duration : 30.0;
+}
+
+int run(const ReplayOptions& o, const std::string& command) {
+    apply(o.common);
+    const Settings settings = settings_of(o);
+    if (o.render.print_settings) {
+        print_settings(settings);
+        return 0;
+    }
+    const std::vector<std::string> layers = parse_layers(o.render.layers);
+    const Recording recording = open_and_note(o.recording, o.common);
+    const std::vector<int> frames =
+        shard_of(select_frames(parse_frames(o.common.frames), recording.info.frames), o.shard);
+    const SceneFile file =
+        load_scene_file(o.scene, {o.render.assets.begin(), o.render.assets.end()});
+    PreparedScene prepared = prepare_scene(file, recording, settings);
+    for (const std::string& warning : prepared.warnings)
+        spdlog::warn("{}", warning);
+    Session session =
+        start_session(settings, std::move(prepared.scene), std::move(prepared.environment));
+    if (o.explain) {
+        std::cout << explain(plan_of(session));
+        return 0;
+    }
+    catch_interrupts();
+    ReplayOutput output = open_output(
+        o.out, recording.info, {command, o.scene, settings, layers, plan_of(session)}, o.resume);
+    Totals totals;
+    if (!play(session, recording, frames, output, o, totals)) {
+        spdlog::warn("interrupted; finished frames stay, go on with --resume");
+        return int(ExitCode::interrupted);
+    }
+    if (!o.video.empty()) write_video(output, frames, o.video, rate_of(recording.info));
+    print_totals(o, totals);
+    return 0;
+}
+
+}  // namespace
+
+std::function<int()> add_replay(CLI::App& subcommand) {
+    const auto o = std::make_shared<ReplayOptions>();
+    add_recording_options(subcommand, o->recording);
+    add_common_options(subcommand, o->common);
+    add_render_options(subcommand, o->render);
+    subcommand.add_option("--scene", o->scene, "the scene file: objects and light")->required();
+    subcommand.add_option("--out", o->out, "the folder to write")->required();
+    subcommand.add_option("--poses", o->poses, "tracked (default) or recorded")
+        ->check(CLI::IsMember({"tracked", "recorded"}));
+    subcommand
+        .add_option("--geometry", o->geometry,
+                    "real geometry: screen (this frame's surface map) or model (the fused mesh)")
+        ->check(CLI::IsMember({"screen", "map", "model"}));
+    subcommand.add_option("--video", o->video, "also make a video, as FILE.mp4");
+    subcommand.add_option("--shard", o->shard, "I/N: only the I-th of N runs of frames");
+    subcommand.add_flag("--resume", o->resume, "go on with the run that the folder holds");
+    subcommand.add_flag("--explain", o->explain,
+                        "print which effects are simulated and why, and stop");
+    return [o] { return run(*o, "replay"); };
+}
+
+}  // namespace inlay

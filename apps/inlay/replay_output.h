@@ -1,0 +1,43 @@
+// The folder that a replay writes: run.json, frames.jsonl, pictures, EXR files, and the video.
+#pragma once
+
+#include "composite/session/session.h"
+#include "recordings/readers/recording.h"
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace inlay {
+
+struct ReplayOutput {
+    std::filesystem::path folder;
+    std::vector<std::string> layers;  // of the EXR files
+    std::set<int> finished;           // frames that are there already
+};
+
+/// What makes two runs the same: written to run.json, and compared when a run is resumed.
+struct RunDescription {
+    std::string command;
+    std::filesystem::path scene;
+    Settings settings;
+    std::vector<std::string> layers;
+    EffectPlan plan;
+};
+
+/// Makes the folder and writes run.json. A folder that holds a run already is refused
+/// (cannot_create) unless `resume` is set; then its run must be the same (usage), and its finished
+/// frames are kept.
+ReplayOutput open_output(const std::filesystem::path& folder, const RecordingInfo& recording,
+                         const RunDescription& run, bool resume);
+
+/// Writes one frame's files, then its line; returns the line's report.
+FrameReport write_frame(ReplayOutput& output, const RgbdFrame& frame, const OutputFrame& composed,
+                        double load_ms);
+
+/// A video of the given frames' pictures, which must be there.
+void write_video(const ReplayOutput& output, const std::vector<int>& frames,
+                 const std::filesystem::path& file, double frames_per_second);
+
+}  // namespace inlay

@@ -1,0 +1,58 @@
+// A recording whose truth is known: a scene filmed by the path tracer, as a TUM RGB-D folder.
+#pragma once
+
+#include "recordings/base/environment_map.h"
+#include "recordings/base/lens.h"
+#include "recordings/base/pose.h"
+#include "recordings/synthetic/camera_path.h"
+#include "recordings/synthetic/sensor_noise.h"
+#include "render/scene/virtual_scene.h"
+
+#include <filesystem>
+#include <functional>
+#include <set>
+#include <vector>
+
+namespace inlay {
+
+/// What is filmed. Objects flagged `real` are in the recording, all of them in its true composite.
+struct FilmedScene {
+    VirtualScene scene;
+    EnvironmentMap environment;
+    Lens lens;
+    glm::dvec3 up{0, 1, 0};                   // world
+    std::function<Pose(double time)> camera;  // world_from_camera at a time (s)
+};
+
+struct RecordSettings {
+    int frames = 30;
+    double frames_per_second = 30;
+    int samples = 256;         // paths per pixel of the recorded color
+    int truth_samples = 1024;  // paths per pixel of the truth
+    std::set<int> truth_frames{0};
+    bool sensor_noise = true;
+    DepthNoiseSettings noise;
+    double units_per_metre = 5000;  // of the stored depth
+    std::uint32_t seed = 1;
+};
+
+/// Throws Error (usage) for counts that are not positive or truth frames outside the recording.
+void validate(const RecordSettings& settings);
+
+/// Writes frames, lists, camera.json and truth/ in the layout of a TUM RGB-D folder; record.json,
+/// which marks the folder as complete, is left to the caller. `frame_done` is called after each
+/// frame. Numbers of a frame depend on (settings.seed, frame) alone, so that any frame can be made
+/// again by itself.
+void record_scene(const FilmedScene& film, const RecordSettings& settings,
+                  const std::filesystem::path& folder, const std::function<void(int)>& frame_done);
+
+/// One frame as the sensor stores it.
+struct RecordedFrame {
+    Image<EncodedRgb> color;
+    Image<std::uint16_t> depth;  // 0 = not measured
+    Image<float> exact_depth;    // m
+};
+
+RecordedFrame film_frame(const FilmedScene& film, const RecordSettings& settings, int frame);
+
+}  // namespace inlay

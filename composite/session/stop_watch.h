@@ -1,0 +1,22 @@
+// StopWatch: wall time of the stages of a frame.
+#pragma once
+
+#include <chrono>
+
+namespace inlay {
+
+class StopWatch {
+public:
+    /// Milliseconds since it was made or last asked.
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
+        last_ = now;
+        return ms;
+    }
+
+private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace inlay
