@@ -22,6 +22,7 @@ using inlay::ExitCode;
 const Command commands[] = {
     {"replay", "The main job: a recording with virtual objects in it", inlay::add_replay},
     {"render", "One view of a scene, without a recording", inlay::add_render},
+    {"record", "A synthetic recording whose truth is known", inlay::add_record},
     {"info", "What a recording holds, what was assumed, what is wrong with it", inlay::add_info},
     {"reconstruct", "Where the camera was, and the room as a mesh", inlay::add_reconstruct},
     {"compare", "How far pictures are from their references: error figures", inlay::add_compare},

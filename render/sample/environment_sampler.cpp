@@ -41,6 +41,8 @@ EnvironmentSampler make_environment_sampler(EnvironmentMap map) {
         row_weights.push_back(sampler.texels.back().total * texel_solid_angle(radiance, y));
     }
     sampler.rows = make_discrete_table(row_weights);
+    for (int y = 0; y <= radiance.height; ++y)
+        sampler.row_cosines.push_back(std::cos(std::numbers::pi * y / radiance.height));
     if (!black) sampler.mean_luminance = float(sampler.rows.total / (4 * std::numbers::pi));
     sampler.map = std::move(map);
     return sampler;
@@ -50,12 +52,12 @@ LightSample sample_environment(const EnvironmentSampler& sampler, glm::vec2 u) {
     const Image<Rgb>& radiance = sampler.map.radiance;
     const DiscreteSample row = sample_discrete(sampler.rows, u.x);
     const DiscreteSample column = sample_discrete(sampler.texels[std::size_t(row.index)], u.y);
-    const double pdf =
-        row.probability * column.probability / texel_solid_angle(radiance, row.index);
+    const double top = sampler.row_cosines[std::size_t(row.index)];
+    const double bottom = sampler.row_cosines[std::size_t(row.index) + 1];
+    const double solid_angle = (top - bottom) * 2 * std::numbers::pi / radiance.width;
+    const double pdf = row.probability * column.probability / solid_angle;
     if (!(pdf > 0)) return {glm::vec3(0, 1, 0), Rgb(0), 0};
 
-    const double top = std::cos(std::numbers::pi * row.index / radiance.height);
-    const double bottom = std::cos(std::numbers::pi * (row.index + 1) / radiance.height);
     const double cosine = top + row.rest * (bottom - top);
     const double sine = std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine)));
     const double longitude =

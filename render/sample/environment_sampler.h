@@ -23,6 +23,7 @@ struct EnvironmentSampler {
     EnvironmentMap map;
     DiscreteTable rows;
     std::vector<DiscreteTable> texels;  // one per row
+    std::vector<double> row_cosines;    // of the polar angles between rows, height + 1 of them
     float mean_luminance = 0;           // over the sphere
 };
 

@@ -87,10 +87,12 @@ RealGeometry mesh_real_geometry(const PhotographedSurface& seen, const EmbreeSce
         RealHits result{distances_of(hits), {}};
         for (std::size_t i = 0; i < packet_width; ++i) {
             if (!hits[i].hit()) continue;
-            const SurfacePoint point =
-                mesh.surface_point(hits[i], rays.origin[i], rays.direction[i]);
-            const auto photo = photographed(seen, point.position, visibility_tolerance);
-            result.radiance[i] = photo ? *photo : point.vertex_color;
+            const glm::vec3& origin = rays.origin[i];
+            const glm::vec3& direction = rays.direction[i];
+            const auto photo =
+                photographed(seen, origin + hits[i].distance * direction, visibility_tolerance);
+            result.radiance[i] =
+                photo ? *photo : mesh.surface_point(hits[i], origin, direction).vertex_color;
         }
         return result;
     };

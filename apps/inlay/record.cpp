@@ -1,0 +1,149 @@
+// `inlay record`: a synthetic recording whose truth is known.
+#include "composite/record/record_scene.h"
+#include "composite/write/atomic_file.h"
+#include "recordings/base/check.h"
+#include "render/scene/place_object.h"
+#include "render/scene/scene_file.h"
+
+#include "apps/inlay/command.h"
+#include "apps/inlay/frame_list.h"
+#include "apps/inlay/options.h"
+#include "apps/inlay/progress.h"
+#include "apps/inlay/scene_copy.h"
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <memory>
+#include <span>
+
+namespace inlay {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RecordOptions {
+    CommonOptions common;
+    std::string scene, out;
+    RecordSettings record;
+    std::string size;         // "WxH"; "" = the scene's
+    std::string truth = "0";  // frames with truth
+    bool no_noise = false, still = false;
+    std::vector<std::string> assets;
+};
+
+/// A scene file, or the name of one of the project's own scenes.
+fs::path scene_path(const std::string& name) {
+    if (fs::path(name).extension() == ".json") return name;
+    const fs::path own = fs::path(INLAY_SCENES_DIR) / (name + ".json");
+    require(fs::exists(own),
+            "record " + name +
+                ": neither a scene file (.json) nor one of the project's own scenes; "
+                "try `inlay record desk`",
+            ExitCode::input_missing);
+    return own;
+}
+
+Lens lens_of(const View& view, const std::string& size) {
+    if (size.empty()) return view.lens;
+    int width = 0, height = 0, read = 0;
+    const int fields = std::sscanf(size.c_str(), "%dx%d%n", &width, &height, &read);
+    require(fields == 2 && read == int(size.size()) && width > 0 && height > 0 && width <= 8192 &&
+                height <= 8192,
+            "--size " + size + ": expected WIDTHxHEIGHT in px, as in 640x480", ExitCode::usage);
+    return scaled(view.lens, width, height);
+}
+
+FilmedScene film_of(const RecordOptions& o, const fs::path& file) {
+    const SceneFile scene = load_scene_file(file, {o.assets.begin(), o.assets.end()});
+    for (const std::string& warning : scene.warnings)
+        spdlog::warn("{}", warning);
+    require(scene.view.has_value(), file.string() + ": `record` needs a 'view'");
+    const auto no_surface = [&](int) -> SurfaceMap {
+        throw Error(ExitCode::bad_data,
+                    file.string() + ": 'place' needs a recording; give the object a 'transform'");
+    };
+    FilmedScene film;
+    film.scene = resolve_placements(scene, no_surface, scene.view->up);
+    film.environment = load_environment(scene.environment, scene.view->up, {0, 0, 1}).map;
+    film.lens = lens_of(*scene.view, o.size);
+    film.up = scene.view->up;
+    std::vector<PathKey> path = scene.path;
+    if (path.empty()) path.push_back({0, scene.view->world_from_camera});
+    film.camera = keyframe_path(std::move(path));
+    if (!o.still) film.camera = hand_held(film.camera, {});
+    return film;
+}
+
+std::set<int> truth_frames(const std::string& list, int frames) {
+    std::set<int> result;
+    if (list == "none") return result;
+    const FrameList parsed = parse_frames(list);
+    for (int i = 0; i < frames; ++i)
+        if (parsed.contains(i)) result.insert(i);
+    return result;
+}
+
+void write_record_json(const fs::path& folder, const RecordOptions& o) {
+    const RecordSettings& r = o.record;
+    const nlohmann::ordered_json json{{"version", INLAY_VERSION},
+                                      {"scene", fs::path(o.scene).filename().string()},
+                                      {"frames", r.frames},
+                                      {"frames_per_second", r.frames_per_second},
+                                      {"samples", r.samples},
+                                      {"truth_frames", r.truth_frames},
+                                      {"truth_samples", r.truth_samples},
+                                      {"sensor_noise", r.sensor_noise},
+                                      {"hand_held", !o.still},
+                                      {"seed", r.seed}};
+    const std::string text = json.dump(2) + "\n";
+    write_file(folder / "record.json", std::as_bytes(std::span(text)));
+}
+
+int run(RecordOptions& o) {
+    apply(o.common);
+    const fs::path file = scene_path(o.scene);
+    const FilmedScene film = film_of(o, file);
+    o.record.seed = o.common.seed;
+    o.record.sensor_noise = !o.no_noise;
+    o.record.truth_frames = truth_frames(o.truth, o.record.frames);
+    const fs::path folder = o.out;
+    require(!fs::exists(folder / "record.json"),
+            folder.string() + ": holds a recording already; choose another --out",
+            ExitCode::cannot_create);
+    make_folder(folder);
+    copy_scene(file, film.environment, folder);
+    Progress progress("frames", o.record.frames, o.common.quiet);
+    record_scene(film, o.record, folder, [&](int done) { progress.advance_to(done); });
+    write_record_json(folder, o);
+    return 0;
+}
+
+}  // namespace
+
+std::function<int()> add_record(CLI::App& subcommand) {
+    const auto o = std::make_shared<RecordOptions>();
+    subcommand.add_option("ROOM", o->scene, "a scene file with 'view' and 'path', or desk")
+        ->required();
+    subcommand.add_option("--out", o->out, "the folder to write")->required();
+    subcommand.add_option("--length", o->record.frames, "frames to record")->capture_default_str();
+    subcommand.add_option("--rate", o->record.frames_per_second, "frames per second")
+        ->capture_default_str();
+    subcommand.add_option("--size", o->size, "WIDTHxHEIGHT in px (default: the scene's)");
+    subcommand.add_option("--samples", o->record.samples, "paths per pixel of the recorded color")
+        ->capture_default_str();
+    subcommand.add_option("--truth", o->truth, "frames with truth, as 0-29x10; or all, none")
+        ->capture_default_str();
+    subcommand
+        .add_option("--truth-samples", o->record.truth_samples, "paths per pixel of the truth")
+        ->capture_default_str();
+    subcommand.add_flag("--no-noise", o->no_noise, "exact depth instead of a sensor's");
+    subcommand.add_flag("--still", o->still, "no hand shake");
+    subcommand.add_option("--assets", o->assets, "folder with files of the scene")
+        ->allow_extra_args(false);
+    add_common_options(subcommand, o->common);
+    return [o] { return run(*o); };
+}
+
+}  // namespace inlay
