@@ -34,10 +34,10 @@ double mean_over_texel(const Image<Rgb>& map, int x, int y, const GaussianLobe& 
     return sum / (n * n);
 }
 
-/// Points a side that put at least four into the lobe's width 1 / sqrt(sharpness).
+/// Points a side that put at least ten into the lobe's width 1 / sqrt(sharpness).
 int points_a_side(const GaussianLobe& lobe) {
     const double texel = pi / lobe_map_height;
-    return std::max(2, int(std::ceil(4 * texel * std::sqrt(lobe.sharpness))));
+    return std::max(2, int(std::ceil(10 * texel * std::sqrt(lobe.sharpness))));
 }
 
 /// The integral of the direction over a latitude-longitude rectangle (sr).

@@ -61,9 +61,15 @@ Image<Rgb> read_radiance_file(const fs::path& file) {
     return image;
 }
 
-bool valid(const Rgb& c) {
-    const auto channel = [](float v) { return std::isfinite(v) && v >= 0; };
-    return channel(c.r) && channel(c.g) && channel(c.b);
+/// Sets what is NaN, infinite or negative to 0; whether there was any.
+bool mend(Rgb& texel) {
+    bool mended = false;
+    for (int c = 0; c < 3; ++c) {
+        if (std::isfinite(texel[c]) && texel[c] >= 0) continue;
+        texel[c] = 0;
+        mended = true;
+    }
+    return mended;
 }
 
 }  // namespace
@@ -80,11 +86,8 @@ LatlongFile load_latlong(const fs::path& file) {
     require(map.width == 2 * map.height,
             file.string() + ": " + std::to_string(map.width) + " x " + std::to_string(map.height) +
                 " px; expected twice as wide as high (a latitude-longitude map of all directions)");
-    for (Rgb& texel : result.radiance.pixels) {
-        if (valid(texel)) continue;
-        texel = Rgb(0);
-        ++result.replaced_texels;
-    }
+    for (Rgb& texel : result.radiance.pixels)
+        result.replaced_texels += mend(texel);
     return result;
 }
 

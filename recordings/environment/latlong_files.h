@@ -11,7 +11,7 @@ namespace inlay {
 /// Radiance as an EnvironmentMap holds it, and what had to be mended for that.
 struct LatlongFile {
     Image<Rgb> radiance;      // finite, >= 0, width = 2 height
-    int replaced_texels = 0;  // texels with a NaN, infinite or negative value, set to black
+    int replaced_texels = 0;  // with a NaN, infinite or negative channel, which is set to 0
 };
 
 /// Reads a latitude-longitude map from an .exr or a Radiance .hdr file. Throws Error:

@@ -28,7 +28,8 @@ struct Phong {
 };
 
 /// Metal and plastic as in glTF 2.0: a GGX reflection over a Lambertian base.
-/// alpha = roughness^2; reflectance at normal incidence 0.04 for a dielectric, base_color for a metal.
+/// alpha = roughness^2; reflectance at normal incidence 0.04 for a dielectric, base_color for a
+/// metal.
 struct Ggx {
     Rgb base_color{0.5f};                         // 0..1
     glm::vec2 roughness{0.5f};                    // along the two tangents, 0..1

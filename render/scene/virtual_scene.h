@@ -37,7 +37,7 @@ struct SceneObject {
     std::string name;
     std::vector<ObjectPart> parts;
     std::vector<MotionKey> motion;  // at least one; times increase strictly
-    bool real = false;             // counts as real in `render` and `record`
+    bool real = false;              // counts as real in `render` and `record`
 };
 
 struct VirtualScene {
