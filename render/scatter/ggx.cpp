@@ -21,6 +21,12 @@ double distribution(glm::vec2 alpha, const glm::vec3& h) {
     return 1 / (std::numbers::pi * alpha.x * alpha.y * q * q);
 }
 
+/// The normal between two directions above the surface; opposite ones at the horizon have +z.
+glm::vec3 half_vector(const glm::vec3& viewer, const glm::vec3& light) {
+    const glm::vec3 sum = viewer + light;
+    return glm::dot(sum, sum) > 0 ? glm::normalize(sum) : glm::vec3(0, 0, 1);
+}
+
 float masking_viewer(glm::vec2 alpha, const glm::vec3& viewer) {
     return 2 * viewer.z / (viewer.z + stretched_length(alpha, viewer));
 }
@@ -43,7 +49,7 @@ glm::vec3 sample_visible_normal(glm::vec2 alpha, const glm::vec3& viewer, glm::v
 
 Rgb eval_ggx(const Rgb& f0, glm::vec2 alpha, const glm::vec3& viewer, const glm::vec3& light) {
     if (viewer.z <= 0 || light.z <= 0) return Rgb(0);
-    const glm::vec3 h = glm::normalize(viewer + light);
+    const glm::vec3 h = half_vector(viewer, light);
     const float fresnel = std::pow(std::max(0.0f, 1 - glm::dot(viewer, h)), 5.0f);
     // G2 / (4 cos_o cos_i) * cos_i, with the cosines cancelled
     const float masked =
@@ -61,7 +67,7 @@ DirectionSample sample_ggx(glm::vec2 alpha, const glm::vec3& viewer, glm::vec2 u
 
 float pdf_ggx(glm::vec2 alpha, const glm::vec3& viewer, const glm::vec3& light) {
     if (viewer.z <= 0 || light.z <= 0) return 0;
-    const glm::vec3 h = glm::normalize(viewer + light);
+    const glm::vec3 h = half_vector(viewer, light);
     return float(masking_viewer(alpha, viewer) * distribution(alpha, h) / (4 * viewer.z));
 }
 
