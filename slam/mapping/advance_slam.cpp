@@ -94,7 +94,7 @@ SurfaceMap uncertain(SurfaceMap surface) {
 
 void learn(SlamState& state, const RgbdFrame& frame, const Observed& observed,
            const Pose& world_from_camera, const SlamSettings& settings) {
-    fuse_depth(state.volume, observed.clean, frame.color, frame.lens, world_from_camera,
+    fuse_depth(state.volume, observed.smooth, frame.color, frame.lens, world_from_camera,
                settings.fusion);
     remember_view(state.keyframes, world_from_camera, observed.clean);
     state.before_last.reset();

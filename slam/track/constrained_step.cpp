@@ -21,7 +21,7 @@ Matrix6 information(const IcpSystem& system) {
 
 }  // namespace
 
-ConstrainedStep constrained_step(const IcpSystem& system, double degenerate) {
+ConstrainedStep constrained_step(const IcpSystem& system, double least_information) {
     ConstrainedStep step;
     if (system.inliers == 0) return step;
     const double radius = system.distance / system.pairs;
@@ -31,7 +31,8 @@ ConstrainedStep constrained_step(const IcpSystem& system, double degenerate) {
     const Matrix6 a = unit.asDiagonal() * information(system) * unit.asDiagonal();
     const Vector6 b = unit.cwiseProduct(Eigen::Map<const Vector6>(system.b.data()));
     const Eigen::SelfAdjointEigenSolver<Matrix6> solver(a);
-    const double least = degenerate * a.trace() / 6;
+    const double weight = a.bottomRightCorner<3, 3>().trace();  // normals are unit vectors
+    const double least = least_information * weight;
     Vector6 x = Vector6::Zero();
     for (int i = 0; i < 6; ++i) {
         const double value = solver.eigenvalues()[i];

@@ -12,8 +12,9 @@ struct ConstrainedStep {
 };
 
 /// Solves A x = b by its eigenvectors, with rotations measured as the path (m) of a point at the
-/// pairs' mean distance. Directions whose eigenvalue is less than `degenerate` times the mean one
-/// get no step. Zhang, Kaess and Singh 2016, Sec. IV. No pairs: no step.
-ConstrainedStep constrained_step(const IcpSystem& system, double degenerate);
+/// pairs' mean distance. Directions whose eigenvalue, per unit of weight, is no more than
+/// `least_information` get no step (Zhang, Kaess and Singh 2016, Sec. IV): 1 would be a direction
+/// that every pair constrains fully, and normals with a noise of s rad make s^2 of nothing.
+ConstrainedStep constrained_step(const IcpSystem& system, double least_information);
 
 }  // namespace inlay

@@ -19,7 +19,6 @@ constexpr float least_scale = 0.3f;         // of depth_sigma(): below lies quan
 struct Attempt {
     Pose start, model_from_observed;
     int iterations = 0;
-    int free_axes = 0;
 };
 
 PairingSettings pairing_of(int level, const TrackSettings& settings) {
@@ -34,8 +33,7 @@ void solve_level(Attempt& attempt, const SurfaceMap& observed, const SurfaceMap&
         const float scale = residual_scale(observed, model, attempt.model_from_observed, pairing);
         pairing.scale = std::max(scale, least_scale);
         const IcpSystem system = icp_system(observed, model, attempt.model_from_observed, pairing);
-        const ConstrainedStep step = constrained_step(system, settings.degenerate);
-        attempt.free_axes = step.free_axes;
+        const ConstrainedStep step = constrained_step(system, double(settings.least_information));
         attempt.model_from_observed =
             orthonormalized(exponential(step.twist) * attempt.model_from_observed);
         ++attempt.iterations;
@@ -93,9 +91,10 @@ void validate(const TrackSettings& s) {
     require(s.fine_distance > 0 && s.coarse_distance >= s.fine_distance,
             "slam.track.fine_distance must be above 0 and no more than coarse_distance",
             ExitCode::usage);
-    require(s.largest_angle > 0 && s.largest_angle < 1.6f && s.degenerate >= 0 && s.degenerate < 1,
-            "slam.track.largest_angle must be 0..1.6 rad and slam.track.degenerate 0..1",
-            ExitCode::usage);
+    require(
+        s.largest_angle > 0 && s.largest_angle < 1.6f && s.least_information >= 0,
+        "slam.track.largest_angle must be 0..1.6 rad and slam.track.least_information 0 or more",
+        ExitCode::usage);
     require(s.weak_share >= 0 && s.weak_share <= s.tracked_share && s.tracked_share <= 1,
             "slam.track.weak_share must be 0 or more and no more than tracked_share <= 1",
             ExitCode::usage);

@@ -20,18 +20,19 @@ struct TrackResult {
 };
 
 struct TrackSettings {
-    int levels = 3;                 // of the pyramid, each half as large
-    int iterations = 12;            // at most, per level
-    float coarse_distance = 0.15f;  // m, largest distance of a pair at the coarsest level
-    float fine_distance = 0.04f;    // m, at the finest level
-    float largest_angle = 0.6f;     // rad, between the normals of a pair
-    float degenerate = 5e-3f;  // directions with less than this share of the mean information stay
-    float tracked_share = 0.5f;      // inlier share for `tracked`
-    float weak_share = 0.25f;        // inlier share for `weak`; below: lost
-    float least_overlap = 0.1f;      // share of points on the model; below: lost
-    float largest_move = 0.3f;       // m, from where it started; above: lost
-    float largest_turn = 0.5f;       // rad, likewise
-    float largest_residual = 0.02f;  // m, rms; above: lost
+    int levels = 3;                   // of the pyramid, each half as large
+    int iterations = 12;              // at most, per level
+    float coarse_distance = 0.15f;    // m, largest distance of a pair at the coarsest level
+    float fine_distance = 0.04f;      // m, at the finest level
+    float largest_angle = 0.6f;       // rad, between the normals of a pair
+    float least_information = 5e-4f;  // per pair, 0..1: directions with less are not moved; normals
+                                      // with a noise of s rad feign s^2
+    float tracked_share = 0.5f;       // inlier share for `tracked`
+    float weak_share = 0.25f;         // inlier share for `weak`; below: lost
+    float least_overlap = 0.1f;       // share of points on the model; below: lost
+    float largest_move = 0.3f;        // m, from where it started; above: lost
+    float largest_turn = 0.5f;        // rad, likewise
+    float largest_residual = 0.02f;   // m, rms; above: lost
 };
 
 /// Throws Error that names the setting which is out of range.

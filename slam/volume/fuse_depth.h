@@ -23,7 +23,7 @@ void validate(const FusionSettings& settings);
 /// An empty volume.
 VoxelVolume make_volume(const FusionSettings& settings);
 
-/// Folds a cleaned depth image (m, 0 = not measured) into every voxel within the truncation of the
+/// Folds a filtered depth image (m, 0 = not measured) into every voxel within the truncation of the
 /// seen surface or in front of it: a weighted running mean of the distance to the surface's tangent
 /// plane. Curless and Levoy 1996, eq. 3 and 4; differs: the weight is capped, and it falls with
 /// distance and obliqueness as a structured-light camera's accuracy does. `color` may be empty,

@@ -118,7 +118,7 @@ TEST_F(SlamTraps, ASinglePlaneMovesNothingThatItCannotTell) {
         const SlamStep step = advance_slam(state, frame, settings, {});
         const Pose& pose = step.tracking.world_from_camera;
         // The plane goes away by 1 cm a frame: the camera goes back, and must not slide along it.
-        // Noise in the first frame's normals looks like structure, until it has averaged out.
+        // Noise in the first frames' normals looks like structure, of less than a voxel.
         EXPECT_NEAR(pose.translation.z, -0.01 * i, 0.002);
         EXPECT_LT(glm::length(glm::dvec2(pose.translation)), 0.01);
         EXPECT_LT(rotation_angle(pose, Pose{}), 0.005);
