@@ -76,7 +76,7 @@ FilmedScene film_of(const RecordOptions& o, const fs::path& file) {
     return film;
 }
 
-std::set<int> truth_frames(const std::string& list, int frames) {
+std::set<int> frames_of(const std::string& list, int frames) {
     std::set<int> result;
     if (list == "none") return result;
     const FrameList parsed = parse_frames(list);
@@ -107,7 +107,9 @@ int run(RecordOptions& o) {
     const FilmedScene film = film_of(o, file);
     o.record.seed = o.common.seed;
     o.record.sensor_noise = !o.no_noise;
-    o.record.truth_frames = truth_frames(o.truth, o.record.frames);
+    o.record.truth_frames = frames_of(o.truth, o.record.frames);
+    if (o.common.frames != "all")
+        o.record.written_frames = frames_of(o.common.frames, o.record.frames);
     const fs::path folder = o.out;
     require(!fs::exists(folder / "record.json"),
             folder.string() + ": holds a recording already; choose another --out",
@@ -116,7 +118,7 @@ int run(RecordOptions& o) {
     copy_scene(file, film.environment, folder);
     Progress progress("frames", o.record.frames, o.common.quiet);
     record_scene(film, o.record, folder, [&](int done) { progress.advance_to(done); });
-    write_record_json(folder, o);
+    if (o.record.written_frames.empty()) write_record_json(folder, o);
     return 0;
 }
 

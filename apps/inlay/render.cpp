@@ -1,5 +1,6 @@
 // `inlay render`: one view of a scene, without a recording.
 #include "composite/session/named_layers.h"
+#include "composite/session/prepare_scene.h"
 #include "composite/session/render_view.h"
 #include "composite/write/write_exr.h"
 #include "composite/write/write_png.h"
@@ -38,6 +39,12 @@ VirtualScene scene_of(const SceneFile& file, const std::string& name) {
     return resolve_placements(file, no_surface, file.view->up);
 }
 
+void require_picture_name(const std::string& out) {
+    const std::filesystem::path extension = std::filesystem::path(out).extension();
+    require(extension == ".exr" || extension == ".png",
+            "--out " + out + ": expected a name in .exr or .png", ExitCode::usage);
+}
+
 void write_result(const RenderCommandOptions& o, const OutputFrame& out,
                   const std::vector<std::string>& layers) {
     const std::filesystem::path file = o.out;
@@ -45,8 +52,6 @@ void write_result(const RenderCommandOptions& o, const OutputFrame& out,
         write_png(file, out.composite.display);
         return;
     }
-    require(file.extension() == ".exr", "--out " + o.out + ": expected a name in .exr or .png",
-            ExitCode::usage);
     const NamedLayers named = named_layers(out, layers);
     ExrFile exr;
     exr.picture = &out.composite.linear;
@@ -81,6 +86,7 @@ int run(const RenderCommandOptions& o) {
         return 0;
     }
     const std::vector<std::string> layers = parse_layers(o.render.layers);
+    require_picture_name(o.out);
     const SceneFile file =
         load_scene_file(o.scene, {o.render.assets.begin(), o.render.assets.end()});
     for (const std::string& warning : file.warnings)
@@ -89,6 +95,7 @@ int run(const RenderCommandOptions& o) {
             o.scene + ": `render` needs to know from where the scene is seen: add a 'view'");
     const VirtualScene scene = scene_of(file, o.scene);
     const LoadedEnvironment light = load_environment(file.environment, file.view->up, {0, 0, 1});
+    if (light.replaced_texels > 0) spdlog::warn("{}", replaced_texels_text(light));
     const EnvironmentSampler environment = make_environment_sampler(light.map);
     if (o.explain) {
         std::cout << explain(plan_effects(

@@ -44,7 +44,7 @@ Settings settings_from(const RenderOptions& o, const CommonOptions& common) {
     Settings settings;
     settings.trace.seed = common.seed;
     apply_quality(settings, o.quality);
-    if (o.samples != 0) settings.trace = with_samples(settings.trace, o.samples);
+    if (o.samples) settings.trace = with_samples(settings.trace, *o.samples);
     const auto set = [&](const char* name, const std::string& value) {
         if (!value.empty()) apply_setting(settings, name + ("=" + value));
     };

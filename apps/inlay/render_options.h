@@ -6,6 +6,7 @@
 #include "apps/inlay/options.h"
 #include <CLI/App.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace inlay {
 
 struct RenderOptions {
     std::string quality = "standard";         // draft, standard or reference
-    int samples = 0;                          // per pixel in all; 0 = by quality
+    std::optional<int> samples;               // per pixel in all; none = by quality
     std::string filter, constants, temporal;  // "" = by quality
     std::vector<std::string> set;             // name=value
     bool print_settings = false;

@@ -59,9 +59,13 @@ Settings settings_of(const ReplayOptions& o) {
     return settings;
 }
 
-EffectPlan plan_of(const Session& session) {
-    return plan_effects(gather_facts(session.scene, session.environment.mean_luminance > 0, 0, 0),
-                        session.settings.filter);
+/// Of the recording's second frame, which unlike the first has one before it.
+EffectPlan plan_of(const Session& session, const std::vector<double>& times) {
+    const double before = times.front(), time = times.size() > 1 ? times[1] : before;
+    SceneFacts facts =
+        gather_facts(session.scene, session.environment.mean_luminance > 0, time, before);
+    facts.first_frame = times.size() == 1;
+    return plan_effects(facts, session.settings.filter);
 }
 
 void print_totals(const ReplayOptions& o, const Totals& t) {
@@ -138,13 +142,14 @@ int run(const ReplayOptions& o, const std::string& command) {
         spdlog::warn("{}", warning);
     Session session =
         start_session(settings, std::move(prepared.scene), std::move(prepared.environment));
+    const EffectPlan plan = plan_of(session, recording.info.times);
     if (o.explain) {
-        std::cout << explain(plan_of(session));
+        std::cout << explain(plan);
         return 0;
     }
     catch_interrupts();
-    ReplayOutput output = open_output(
-        o.out, recording.info, {command, o.scene, settings, layers, plan_of(session)}, o.resume);
+    ReplayOutput output =
+        open_output(o.out, recording.info, {command, o.scene, settings, layers, plan}, o.resume);
     Totals totals;
     if (!play(session, recording, frames, output, o, totals)) {
         spdlog::warn("interrupted; finished frames stay, go on with --resume");

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <fstream>
+#include <iterator>
 #include <span>
 
 namespace inlay {
@@ -28,7 +29,15 @@ fs::path exr_file(const fs::path& folder, int frame) {
     return folder / "exr" / fmt::format("{:06d}.exr", frame);
 }
 
-/// FNV-1a over what identifies a recording without decoding it.
+/// FNV-1a.
+std::string hash_of(const std::string& text) {
+    std::uint64_t hash = 0xcbf29ce484222325ULL;
+    for (const char c : text)
+        hash = (hash ^ std::uint8_t(c)) * 0x100000001b3ULL;
+    return fmt::format("{:016x}", hash);
+}
+
+/// Of what identifies a recording without decoding it.
 std::string fingerprint(const RecordingInfo& info) {
     std::string text = info.profile;
     const Lens& l = info.lens;
@@ -36,10 +45,13 @@ std::string fingerprint(const RecordingInfo& info) {
                         l.cy, l.k1, l.k2, l.p1, l.p2, l.k3, info.units_per_metre);
     for (std::size_t i = 0; i < info.frames.size(); ++i)
         text += fmt::format(" {}:{}", info.frames[i], info.times[i]);
-    std::uint64_t hash = 0xcbf29ce484222325ULL;
-    for (const char c : text)
-        hash = (hash ^ std::uint8_t(c)) * 0x100000001b3ULL;
-    return fmt::format("{:016x}", hash);
+    return hash_of(text);
+}
+
+/// Of the scene file itself; meshes and textures that it names may change unnoticed.
+std::string fingerprint(const fs::path& scene) {
+    std::ifstream stream(scene, std::ios::binary);
+    return hash_of({std::istreambuf_iterator<char>(stream), {}});
 }
 
 Json describe(const RecordingInfo& recording, const RunDescription& run) {
@@ -50,7 +62,8 @@ Json describe(const RecordingInfo& recording, const RunDescription& run) {
         plan.push_back({{"effect", e.name}, {"in", e.in}, {"reason", e.reason}});
     return {{"version", INLAY_VERSION},
             {"command", run.command},
-            {"scene", run.scene.filename().string()},
+            {"scene",
+             {{"name", run.scene.filename().string()}, {"fingerprint", fingerprint(run.scene)}}},
             {"settings", settings},
             {"layers", run.layers},
             {"recording",
@@ -74,13 +87,20 @@ void require_same_run(const fs::path& file, const Json& now) {
     }
 }
 
+/// Frames with a line and both files. Lines of other frames, which are made again, are removed.
 std::set<int> finished_frames(const fs::path& folder) {
+    const fs::path file = folder / "frames.jsonl";
+    const std::vector<FrameReport> reports = read_reports(file);
     std::set<int> finished;
-    for (const FrameReport& report : read_reports(folder / "frames.jsonl")) {
-        if (fs::exists(picture_file(folder, report.frame)) &&
-            fs::exists(exr_file(folder, report.frame)))
-            finished.insert(report.frame);
+    std::string lines;
+    for (const FrameReport& report : reports) {
+        if (!fs::exists(picture_file(folder, report.frame)) ||
+            !fs::exists(exr_file(folder, report.frame)))
+            continue;
+        finished.insert(report.frame);
+        lines += to_json_line(report) + "\n";
     }
+    if (finished.size() != reports.size()) write_file(file, std::as_bytes(std::span(lines)));
     return finished;
 }
 

@@ -142,6 +142,7 @@ void record_scene(const FilmedScene& film, const RecordSettings& settings, const
     environment.picture_precision = ExrPrecision::full_float;
     write_exr(folder / "truth" / "environment.exr", environment);
     for (int i = 0; i < settings.frames; ++i) {
+        if (!settings.written_frames.empty() && !settings.written_frames.contains(i)) continue;
         const RecordedFrame frame = film_frame(film, settings, i);
         write_png(folder / "rgb" / fmt::format("{:06d}.png", i), frame.color);
         write_png(folder / "depth" / fmt::format("{:06d}.png", i), frame.depth);

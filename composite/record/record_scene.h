@@ -27,8 +27,9 @@ struct FilmedScene {
 struct RecordSettings {
     int frames = 30;
     double frames_per_second = 30;
-    int samples = 256;         // paths per pixel of the recorded color
-    int truth_samples = 1024;  // paths per pixel of the truth
+    int samples = 256;             // paths per pixel of the recorded color
+    int truth_samples = 1024;      // paths per pixel of the truth
+    std::set<int> written_frames;  // of color, depth and truth; empty: all. Lists hold all frames
     std::set<int> truth_frames{0};
     bool sensor_noise = true;
     DepthNoiseSettings noise;

@@ -47,6 +47,11 @@ glm::dvec3 up_of(const RecordingInfo& info, const std::function<SurfaceMap(int)>
 
 }  // namespace
 
+std::string replaced_texels_text(const LoadedEnvironment& environment) {
+    return "environment: " + std::to_string(environment.replaced_texels) +
+           " texels were not finite or negative and are black now";
+}
+
 PreparedScene prepare_scene(const SceneFile& file, const Recording& recording,
                             const Settings& settings) {
     const auto surface_of = [&](int number) {
@@ -61,8 +66,7 @@ PreparedScene prepare_scene(const SceneFile& file, const Recording& recording,
     LoadedEnvironment environment =
         load_environment(file.environment, prepared.up, anchor.rotation[2]);
     if (environment.replaced_texels > 0)
-        prepared.warnings.push_back("environment: " + std::to_string(environment.replaced_texels) +
-                                    " texels were not finite or negative and are black now");
+        prepared.warnings.push_back(replaced_texels_text(environment));
     prepared.environment = std::move(environment.map);
     return prepared;
 }

@@ -25,4 +25,7 @@ struct PreparedScene {
 PreparedScene prepare_scene(const SceneFile& file, const Recording& recording,
                             const Settings& settings);
 
+/// The warning for a map with texels that had to be replaced.
+std::string replaced_texels_text(const LoadedEnvironment& environment);
+
 }  // namespace inlay

@@ -123,6 +123,8 @@ std::vector<SettingRow> render_rows() {
             "filter.constants",
             {{"corrected", FilterConstants::corrected}, {"thesis", FilterConstants::thesis}},
             INLAY_MEMBER(filter.constants)),
+        row("filter.real_curvature", "on|off", INLAY_MEMBER(filter.real_curvature)),
+        row("filter.rate_reach", "px", INLAY_MEMBER(filter.rate_reach)),
         row("filter.curvature_safety", "s_k", INLAY_MEMBER(filter.curvature_safety)),
         row("filter.visibility_safety", "s_v", INLAY_MEMBER(filter.visibility_safety)),
         row("filter.kernel_radius", "px", INLAY_MEMBER(filter.kernel_radius)),

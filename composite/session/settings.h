@@ -34,7 +34,7 @@ struct Settings {
     bool use_recorded_poses = false;
     GeometrySettings geometry;
     SamplingSettings trace{.depth_tolerance = 0.004f};
-    FilterSettings filter;
+    FilterSettings filter{.real_curvature = false};  // eq. 6.2 takes real irradiances as a ratio
     BlendSettings blend;
 };
 

@@ -65,11 +65,22 @@ Receiver completed(const Receiver& receiver, const FilterSettings& settings) {
     return result;
 }
 
+/// Curvature changes E_R and E_RV alike, so where only their ratio counts it need not bound the
+/// width: the shadow ratio, with E_R as the unshadowed light. The normal stop still bounds what
+/// mixes.
+bool ignores_curvature(Receiver NoisyLayers::*kind, const FilterSettings& settings) {
+    return kind == &NoisyLayers::real && !settings.real_curvature &&
+           settings.constants == FilterConstants::corrected;
+}
+
 Receivers prepare(const NoisyLayers& now, const NoisyLayers* previous, Receiver NoisyLayers::*kind,
                   const FilterSettings& settings) {
     Receivers result;
     if (!any_object(now.*kind)) return result;
     result.now = prepare(completed(now.*kind, settings), now.lens, now.world_from_camera);
+    if (ignores_curvature(kind, settings))
+        result.now.curvature = {Image<float>(now.lens.width, now.lens.height),
+                                Image<float>(now.lens.width, now.lens.height)};
     if (previous == nullptr || result.now.empty) return result;
     const Receiver before = completed(previous->*kind, settings);
     result.source = matching_pixels(result.now, now.world_from_camera, *previous, before, settings);

@@ -10,13 +10,14 @@ enum class FilterConstants { corrected, thesis };
 struct FilterSettings {
     bool enabled = true;  // false: the noisy values are passed on
     FilterConstants constants = FilterConstants::corrected;
-    double curvature_safety = 0.2;    // s_k, > 0; the smaller, the sharper on curved surfaces
-    double visibility_safety = 1.0;   // s_v, > 0; the smaller, the sharper next to occluders
-    int rate_reach = 2;               // px, >= 0; see filled_rates; not used with thesis constants
-    int kernel_radius = 15;           // px, >= 0, each way along a row and a column
-    double narrowest_width = 1.0;     // px, >= 0; lower bound of sigma
-    double normal_stop_deg = 10.0;    // 0..90, exclusive; surfaces that turn further do not mix
-    bool temporal = true;             // use the previous frame's unfiltered values
+    bool real_curvature = true;      // false: a real surface's curvature does not narrow the filter
+    double curvature_safety = 0.2;   // s_k, > 0; the smaller, the sharper on curved surfaces
+    double visibility_safety = 1.0;  // s_v, > 0; the smaller, the sharper next to occluders
+    int rate_reach = 2;              // px, >= 0; see filled_rates; not used with thesis constants
+    int kernel_radius = 15;          // px, >= 0, each way along a row and a column
+    double narrowest_width = 1.0;    // px, >= 0; lower bound of sigma
+    double normal_stop_deg = 10.0;   // 0..90, exclusive; surfaces that turn further do not mix
+    bool temporal = true;            // use the previous frame's unfiltered values
     double rejection_distance = 3.0;  // px, > 0; last frame's surface must lie within
 };
 
