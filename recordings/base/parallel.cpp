@@ -8,8 +8,14 @@
 #include <vector>
 
 namespace inlay {
+namespace {
+
+bool one_thread = false;
+
+}  // namespace
 
 void set_thread_count(int threads) {
+    one_thread = threads == 1;
     static std::unique_ptr<tbb::global_control> limit;
     limit.reset();
     if (threads > 0) {
@@ -19,6 +25,11 @@ void set_thread_count(int threads) {
 }
 
 void parallel_for(int count, const std::function<void(int)>& body) {
+    if (one_thread) {  // a plain loop, in the caller's floating-point environment
+        for (int i = 0; i < count; ++i)
+            body(i);
+        return;
+    }
     tbb::parallel_for(0, count, [&](int i) { body(i); });
 }
 

@@ -5,8 +5,9 @@
 
 namespace inlay::test {
 
-/// Traps on the calling thread for as long as it lives, then restores what was before. Keep calls
-/// into other libraries out of its scope: they may compute with lanes that nobody reads.
+/// Traps on the calling thread for as long as it lives, then restores what was before; parallel
+/// loops are under them after set_thread_count(1). Keep calls into other libraries out of its
+/// scope: they may compute with lanes that nobody reads.
 class FloatingPointTraps {
 public:
     FloatingPointTraps() {
