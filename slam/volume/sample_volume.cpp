@@ -13,12 +13,9 @@ float corner_weight(int corner, const glm::vec3& f) {
 }  // namespace
 
 const Brick* VolumeSampler::brick(const glm::ivec3& key) {
-    if (!read_ || key != last_key_) {
-        last_ = find_brick(*volume_, key);
-        last_key_ = key;
-        read_ = true;
-    }
-    return last_;
+    Known& known = known_[std::size_t((key.x & 1) | ((key.y & 1) << 1) | ((key.z & 1) << 2))];
+    if (!known.read || known.key != key) known = {key, find_brick(*volume_, key), true};
+    return known.brick;
 }
 
 const Voxel* VolumeSampler::voxel(const glm::ivec3& v) {

@@ -14,7 +14,7 @@ namespace inlay {
 constexpr float unknown_distance = 2;
 inline bool is_known(float distance) { return distance < 1.5f; }
 
-/// Reads a volume at many nearby points: it remembers the brick that it read last. Points are in
+/// Reads a volume at many nearby points: it remembers the bricks that it read last. Points are in
 /// voxel units: p_world / voxel_size.
 class VolumeSampler {
 public:
@@ -34,10 +34,13 @@ public:
     std::array<const Voxel*, 8> corners(const glm::ivec3& base);
 
 private:
+    struct Known {
+        glm::ivec3 key{0};
+        const Brick* brick = nullptr;
+        bool read = false;
+    };
     const VoxelVolume* volume_;
-    glm::ivec3 last_key_{0};
-    const Brick* last_ = nullptr;
-    bool read_ = false;
+    std::array<Known, 8> known_;  // by the parity of the key: bricks that meet have places apart
 };
 
 /// The fused linear color at a point (m, world): trilinear over those of the eight voxels around it
