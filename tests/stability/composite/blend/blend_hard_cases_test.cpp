@@ -1,20 +1,36 @@
 // The blend under floating-point traps: no input may make an invalid operation, a division by zero
 // or an overflow, and every result is finite, bounded and continuous.
 #include "composite/blend/differential.h"
+#include "recordings/base/parallel.h"
 #include "tests/support/floating_point_traps.h"
 #include "tests/support/layers_of_one_value.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <vector>
 
 namespace inlay {
 namespace {
 
-// Traps belong to a thread: images of one row are blended on the calling one.
-using test::FloatingPointTraps;
+/// Runs `body` under traps and ends the process: 0 when no expectation failed. For EXPECT_EXIT in
+/// the threadsafe style, which starts the program anew: TBB hands the floating-point environment of
+/// its first use to all of its threads and keeps it, so that a body which shares the process with
+/// other tests would leave them trapped, or find its own traps disarmed.
+template <class Body>
+[[noreturn]] void exit_after(Body body) {
+    const test::FloatingPointTraps traps;
+    body();
+    std::_Exit(testing::Test::HasFailure() ? 1 : 0);
+}
+
+class BlendHardCases : public testing::Test {
+protected:
+    void SetUp() override { GTEST_FLAG_SET(death_test_style, "threadsafe"); }
+};
 
 struct HardCase {
     float e_r, e_rv, m;
@@ -40,8 +56,7 @@ Layers layers_of(const HardCase& c, int width) {
     return layers;
 }
 
-TEST(BlendHardCases, AreFiniteAndBoundedUnderTraps) {
-    const FloatingPointTraps traps;
+void expect_all_bounded() {
     for (const BlendForm form : {BlendForm::ratio, BlendForm::additive})
         for (const std::uint8_t grey : {0, 1, 128, 255})
             for (const HardCase& c : hard_cases()) {
@@ -56,8 +71,7 @@ TEST(BlendHardCases, AreFiniteAndBoundedUnderTraps) {
             }
 }
 
-TEST(BlendHardCases, ExtremeNeighboursDoNotSpoilAPixel) {
-    const FloatingPointTraps traps;
+void expect_first_pixel_as_recorded() {
     const Photo photo = test::grey_photo(3, 1, 128);
     for (const HardCase& c : hard_cases()) {
         Layers layers = layers_of(c, 3);
@@ -67,16 +81,38 @@ TEST(BlendHardCases, ExtremeNeighboursDoNotSpoilAPixel) {
     }
 }
 
-TEST(BlendHardCases, NotANumberPassesUnderTraps) {
+void expect_not_a_number_replaced() {
     const Photo photo = test::grey_photo(1, 1, 128);
     Layers layers = test::untouched_layers(1, 1, 1.0f);
     layers.direct.e_rv_real(0, 0) = Rgb(std::numeric_limits<float>::quiet_NaN());
     layers.m(0, 0) = std::numeric_limits<float>::quiet_NaN();
-    const FloatingPointTraps traps;
     EXPECT_EQ(composite(photo, layers).replaced_pixels, 1u);
 }
 
-TEST(BlendHardCases, TheRatioIsContinuousWhereTheLightGoesOut) {
+TEST_F(BlendHardCases, TheTrapsAreArmed) {
+    const auto divide_by_zero = [] {
+        parallel_for(1, [](int) {
+            volatile double zero = 0;
+            volatile double quotient = 1 / zero;
+            static_cast<void>(quotient);
+        });
+    };
+    EXPECT_EXIT(exit_after(divide_by_zero), testing::KilledBySignal(SIGFPE), "");
+}
+
+TEST_F(BlendHardCases, AreFiniteAndBoundedUnderTraps) {
+    EXPECT_EXIT(exit_after(expect_all_bounded), testing::ExitedWithCode(0), "");
+}
+
+TEST_F(BlendHardCases, ExtremeNeighboursDoNotSpoilAPixel) {
+    EXPECT_EXIT(exit_after(expect_first_pixel_as_recorded), testing::ExitedWithCode(0), "");
+}
+
+TEST_F(BlendHardCases, NotANumberPassesUnderTraps) {
+    EXPECT_EXIT(exit_after(expect_not_a_number_replaced), testing::ExitedWithCode(0), "");
+}
+
+TEST_F(BlendHardCases, TheRatioIsContinuousWhereTheLightGoesOut) {
     // E_R from 1 to 0 in steps of 10 %: with epsilon = 1e-3 and E_RV = E_R + 1e-5 the ratio's
     // largest slope is 1e-5 / epsilon^2 = 10 per unit, that is 1e-3 per step below epsilon
     double before = bounded_ratio(1, 1 + 1e-5, 1e-3, 4);
@@ -88,7 +124,7 @@ TEST(BlendHardCases, TheRatioIsContinuousWhereTheLightGoesOut) {
     EXPECT_NEAR(before, bounded_ratio(0, 1e-5, 1e-3, 4), 1e-9);  // and it meets its limit
 }
 
-TEST(BlendHardCases, NoiseOfTheIrradianceIsNotAmplifiedBeyondTheBound) {
+TEST_F(BlendHardCases, NoiseOfTheIrradianceIsNotAmplifiedBeyondTheBound) {
     // A relative disturbance d of E_RV changes the ratio by at most d times the ratio
     for (double e_r = 1e-9; e_r < 10; e_r *= 10)
         for (double e_rv = 1e-9; e_rv < 10; e_rv *= 10) {
