@@ -96,9 +96,22 @@ void require_few_triangles(const std::vector<Instance>& meshes, const fs::path& 
                 std::to_string(max_triangles) + ", instances counted");
 }
 
+/// The glTF importer leaves out triangles whose indices are out of range, and says so nowhere.
+void require_all_triangles(const MeshImport& import) {
+    const aiScene& scene = *import.importer->GetScene();
+    std::size_t found = 0;
+    for (unsigned i = 0; i < scene.mNumMeshes; ++i)
+        found += scene.mMeshes[i]->mNumFaces;
+    const std::size_t listed = listed_triangles(import.file);
+    require(found >= listed, import.file.string() + ": " + std::to_string(listed - found) + " of " +
+                                 std::to_string(listed) +
+                                 " triangles refer to vertices that do not exist; repair the mesh");
+}
+
 LoadedMesh collect(const MeshImport& import, MeshMaterials materials) {
     const aiScene& scene = *import.importer->GetScene();
     const std::vector<Instance> meshes = instances(scene);
+    require_all_triangles(import);
     require_few_triangles(meshes, import.file);
     LoadedMesh result;
     std::map<unsigned, std::optional<Material>> by_index;

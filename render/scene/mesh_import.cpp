@@ -148,13 +148,15 @@ MeshImport import_mesh(const fs::path& file, const AssetFolders& assets, MeshMat
     MeshImport import{std::make_shared<Assimp::Importer>(), file, assets};
     Assimp::Importer& importer = *import.importer;
     keep_only_our_importers(importer);
-    importer.SetIOHandler(new JailedFiles(assets, access));  // the importer owns and deletes it
+    auto* files = new JailedFiles(assets, access);
+    importer.SetIOHandler(files);  // the importer owns it
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                                 aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     const aiScene* scene = importer.ReadFile(
         file.string(), aiProcess_ValidateDataStructure | aiProcess_JoinIdenticalVertices |
                            aiProcess_Triangulate | aiProcess_SortByPType);
-    importer.SetIOHandler(nullptr);  // `access` ends here
+    importer.SetIOHandler(nullptr);  // `access` ends here, so the importer hands the files back
+    delete files;
     require_access(access, file, materials);
     if (!scene && !access.missing.empty())
         throw Error(ExitCode::input_missing, file.string() + ": refers to \"" + access.missing[0] +

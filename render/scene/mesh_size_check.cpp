@@ -58,16 +58,19 @@ std::string gltf_text(const fs::path& file) {
     return text.substr(20, std::size_t(length));
 }
 
-void require_plausible_gltf(const fs::path& file) {
-    json document;
+json gltf_document(const fs::path& file) {
     try {
-        document = json::parse(gltf_text(file), [&](int depth, json::parse_event_t, json&) {
+        return json::parse(gltf_text(file), [&](int depth, json::parse_event_t, json&) {
             require(depth <= 64, file.string() + ": nested deeper than 64 levels");
             return true;
         });
     } catch (const json::exception& fault) {
         throw Error(ExitCode::bad_data, file.string() + ": not valid glTF (" + fault.what() + ")");
     }
+}
+
+void require_plausible_gltf(const fs::path& file) {
+    const json document = gltf_document(file);
     if (!document.is_object() || !document.contains("accessors")) return;
     const json& accessors = document["accessors"];
     for (std::size_t i = 0; accessors.is_array() && i < accessors.size(); ++i) {
@@ -79,6 +82,17 @@ void require_plausible_gltf(const fs::path& file) {
                 place + ": claims " + a["count"].dump() + " elements; expected at most " +
                     std::to_string(max_elements));
     }
+}
+
+/// Triangles of a glTF primitive: modes 4, 5 and 6 are lists, strips and fans.
+std::size_t triangles_of(const json& document, const json& primitive) {
+    const json& accessors = document.at("accessors");
+    const json& source = primitive.contains("indices") ? primitive.at("indices")
+                                                       : primitive.at("attributes").at("POSITION");
+    const auto count = accessors.at(source.get<std::size_t>()).at("count").get<std::size_t>();
+    const int mode = primitive.value("mode", 4);
+    if (mode == 4) return count / 3;
+    return (mode == 5 || mode == 6) && count >= 3 ? count - 2 : 0;
 }
 
 }  // namespace
@@ -97,6 +111,21 @@ void require_plausible_counts(const fs::path& file) {
     const std::string extension = mesh_extension(file);
     if (extension == ".ply") require_plausible_ply(file);
     if (extension == ".gltf" || extension == ".glb") require_plausible_gltf(file);
+}
+
+std::size_t listed_triangles(const fs::path& file) {
+    const std::string extension = mesh_extension(file);
+    if (extension != ".gltf" && extension != ".glb") return 0;
+    const json document = gltf_document(file);
+    std::size_t sum = 0;
+    try {
+        for (const json& mesh : document.at("meshes"))
+            for (const json& primitive : mesh.at("primitives"))
+                sum += triangles_of(document, primitive);
+    } catch (const json::exception& fault) {
+        throw Error(ExitCode::bad_data, file.string() + ": incomplete glTF (" + fault.what() + ")");
+    }
+    return sum;
 }
 
 }  // namespace inlay

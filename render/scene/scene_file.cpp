@@ -72,7 +72,7 @@ std::vector<PathKey> path_of(const JsonNode& node) {
     return path;
 }
 
-void read_objects(const JsonNode& node, const AssetFolders& assets, SceneFile& scene) {
+void read_objects(SceneFile& scene, const JsonNode& node, const AssetFolders& assets) {
     if (items_of(node).size() > 10000) refuse(node, describe(node), "at most 10000 objects");
     std::set<std::string> names;
     for (const JsonNode& item : node.items) {
@@ -128,7 +128,7 @@ SceneFile load_scene_file(const fs::path& file, const std::vector<fs::path>& mor
     const AssetFolders assets = asset_folders(file, more_folders);
     SceneFile scene;
     scene.environment = environment_of(member(document, "environment"), assets);
-    if (const JsonNode* n = find(document, "objects")) read_objects(*n, assets, scene);
+    if (const JsonNode* n = find(document, "objects")) read_objects(scene, *n, assets);
     if (const JsonNode* n = find(document, "view")) scene.view = view_of(*n);
     if (const JsonNode* n = find(document, "path")) scene.path = path_of(*n);
     return scene;

@@ -60,8 +60,8 @@ glm::dmat4 translation(const glm::dvec3& t) {
     return m;
 }
 
-void read_mesh(const JsonNode& node, const AssetFolders& assets, SceneEntry& entry,
-               std::vector<std::string>& warnings) {
+void read_mesh(SceneEntry& entry, std::vector<std::string>& warnings, const JsonNode& node,
+               const AssetFolders& assets) {
     const JsonNode& name = member(node, "mesh");
     const JsonNode* material = find(node, "material");
     LoadedMesh loaded = load_mesh(find_asset(assets, text_of(name), name.place), assets,
@@ -88,7 +88,7 @@ void read_mesh(const JsonNode& node, const AssetFolders& assets, SceneEntry& ent
     }
 }
 
-void read_sphere(const JsonNode& node, const AssetFolders& assets, SceneEntry& entry) {
+void read_sphere(SceneEntry& entry, const JsonNode& node, const AssetFolders& assets) {
     const JsonNode& sphere = member(node, "sphere");
     require_known_keys(sphere, {"radius"});
     const double radius = number_of(member(sphere, "radius"), {1e-4, 1e4});
@@ -185,8 +185,8 @@ SceneEntry entry_of(const JsonNode& node, const AssetFolders& assets,
                "one of \"mesh\" and \"sphere\"");
     if (const JsonNode* n = find(node, "real")) entry.object.real = boolean_of(*n);
     if (const JsonNode* n = find(node, "place")) entry.placement = placement_of(*n);
-    if (mesh) read_mesh(node, assets, entry, warnings);
-    if (sphere) read_sphere(node, assets, entry);
+    if (mesh) read_mesh(entry, warnings, node, assets);
+    if (sphere) read_sphere(entry, node, assets);
     entry.object.motion = motion_of(node, entry);
     require_even_scale(node, entry.object);
     return entry;

@@ -59,7 +59,8 @@ TEST_F(Meshes, ObjValuesThatAreNoNumbersAreRefused) {
 
 TEST_F(Meshes, ObjTextureCoordinatesThatAreNoneBecomeHarmless) {
     write("a.obj", triangle + "vt nan 0\nvt 0 0\nvt 1 1\nf 1/1 2/2 3/3\n");
-    for (const glm::vec2& uv : load("a.obj").parts.at(0).mesh.texture_coordinates)
+    const LoadedMesh mesh = load("a.obj");
+    for (const glm::vec2& uv : mesh.parts.at(0).mesh.texture_coordinates)
         EXPECT_TRUE(std::isfinite(uv.x + uv.y));
     write("a.obj", triangle + "vt 0 0\nf 1/7 2/7 3/7\n");  // out of range
     EXPECT_TRUE(load("a.obj").parts.at(0).mesh.texture_coordinates.empty());
@@ -187,6 +188,13 @@ TEST_F(Meshes, GltfBuffersAreChecked) {
     write("t.bin", buffer(500));
     write("a.gltf", gltf("t.bin", "3", "36"));
     expect_refused("a.gltf", "");
+    write("u.bin", buffer(2) + std::string("\0\0\1\0\xf4\1", 6));  // a second triangle: 0, 1, 500
+    std::string two = gltf("u.bin", "3", "36");
+    two.replace(two.find("\"byteLength\": 42"), 16, "\"byteLength\": 48");
+    two.replace(two.find("\"byteLength\": 6}"), 15, "\"byteLength\": 12");
+    two.replace(two.find("\"count\": 3, \"type\": \"SCALAR\""), 10, "\"count\": 6");
+    write("a.gltf", two);
+    expect_refused("a.gltf", "1 of 2 triangles refer to vertices that do not exist");
     write("t.bin", buffer(2).substr(0, 20));
     expect_refused("a.gltf", "");
     write("a.gltf", "{\"asset\": {\"version\": \"2.0\"}, \"accessors\": [3]}");
