@@ -3,15 +3,19 @@
 #include "recordings/base/check.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <charconv>
+#include <system_error>
 
 namespace inlay {
 
 std::vector<int> shard_of(const std::vector<int>& frames, const std::string& text) {
     if (text.empty()) return frames;
-    int part = 0, parts = 0, read = 0;
-    const int fields = std::sscanf(text.c_str(), "%d/%d%n", &part, &parts, &read);
-    require(fields == 2 && read == int(text.size()) && part >= 1 && part <= parts,
+    int part = 0, parts = 0;
+    const char* end = text.data() + text.size();
+    const auto first = std::from_chars(text.data(), end, part);
+    const bool split = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
+    const auto second = split ? std::from_chars(first.ptr + 1, end, parts) : first;
+    require(split && second.ec == std::errc() && second.ptr == end && part >= 1 && part <= parts,
             "--shard " + text + ": expected I/N with 1 <= I <= N, as in 1/4", ExitCode::usage);
     const auto bound = [&](int i) {
         return std::ptrdiff_t(frames.size() * std::size_t(i) / std::size_t(parts));

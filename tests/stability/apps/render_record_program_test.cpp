@@ -1,0 +1,113 @@
+// `inlay render` and `inlay record` as their user meets them.
+#include "tests/support/program_runs.h"
+
+#include <nlohmann/json.hpp>
+
+namespace inlay {
+namespace {
+
+namespace fs = std::filesystem;
+using test::file_text;
+using test::Outcome;
+using test::run_program;
+using test::TemporaryFolder;
+using test::write_file;
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// A virtual ball on a real one under even light, seen at 48 x 36 px.
+const std::string small_scene = R"({"version": 1, "environment": {"constant": [1, 1, 1]},
+  "view": {"width": 48, "height": 36, "lens": [40, 40, 23.5, 17.5],
+           "world_from_camera": [1,0,0,0, 0,-1,0,0, 0,0,-1,1, 0,0,0,1]},
+  "objects": [
+    {"name": "stone", "sphere": {"radius": 0.2}, "real": true,
+     "transform": [1,0,0,0, 0,1,0,-0.2, 0,0,1,0, 0,0,0,1],
+     "material": {"type": "diffuse", "reflectance": [0.5, 0.5, 0.5]}},
+    {"name": "ball", "sphere": {"radius": 0.1},
+     "transform": [1,0,0,0, 0,1,0,0.1, 0,0,1,0, 0,0,0,1],
+     "material": {"type": "diffuse", "reflectance": [0.8, 0.2, 0.2]}}]})";
+
+std::string without_view() {
+    nlohmann::json scene = nlohmann::json::parse(small_scene);
+    scene.erase("view");
+    return scene.dump();
+}
+
+Outcome render(const fs::path& scene, const fs::path& out) {
+    return run_program("render " + scene.string() + " --out " + out.string() +
+                       " --samples 4 --photo-samples 4 --quiet --layers all");
+}
+
+Outcome record(const fs::path& scene, const fs::path& out, const std::string& options = "") {
+    return run_program("record " + scene.string() + " --out " + out.string() +
+                       " --length 2 --samples 4 --truth none --quiet " + options);
+}
+
+TEST(Render, GivesTheSameBytesTwice) {
+    const TemporaryFolder folder;
+    write_file(folder / "scene.json", small_scene);
+    for (const char* name : {"a.exr", "b.exr", "a.png", "b.png"}) {
+        const Outcome outcome = render(folder / "scene.json", folder / name);
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+    }
+    EXPECT_GT(file_text(folder / "a.exr").size(), 1000u);
+    EXPECT_TRUE(file_text(folder / "a.exr") == file_text(folder / "b.exr"));
+    EXPECT_TRUE(file_text(folder / "a.png") == file_text(folder / "b.png"));
+    EXPECT_EQ(folder.entries(), 5);
+}
+
+TEST(Render, RefusesWhatItCannotSeeOrWrite) {
+    const TemporaryFolder folder;
+    write_file(folder / "scene.json", small_scene);
+    write_file(folder / "blind.json", without_view());
+    const Outcome blind = render(folder / "blind.json", folder / "a.exr");
+    EXPECT_EQ(blind.code, 65);
+    EXPECT_THAT(blind.err, AllOf(HasSubstr("blind.json"), HasSubstr("add a 'view'")));
+    const Outcome kind = render(folder / "scene.json", folder / "a.jpg");
+    EXPECT_EQ(kind.code, 2);
+    EXPECT_THAT(kind.err, AllOf(HasSubstr("a.jpg"), HasSubstr(".exr or .png")));
+    EXPECT_EQ(render(folder / "none.json", folder / "a.exr").code, 66);
+    EXPECT_EQ(render(folder / "scene.json", folder / "scene.json" / "a.exr").code, 73);
+    EXPECT_EQ(folder.entries(), 2);
+}
+
+TEST(Record, RefusesAFolderThatIsComplete) {
+    const TemporaryFolder folder;
+    write_file(folder / "scene.json", small_scene);
+    ASSERT_EQ(record(folder / "scene.json", folder / "out").code, 0);
+    const auto before = test::contents(folder / "out");
+    EXPECT_TRUE(before.contains("record.json"));
+    const Outcome again = record(folder / "scene.json", folder / "out", "--seed 2");
+    EXPECT_EQ(again.code, 73);
+    EXPECT_THAT(again.err, AllOf(HasSubstr("out"), HasSubstr("choose another --out")));
+    EXPECT_TRUE(test::contents(folder / "out") == before);
+}
+
+TEST(Record, CompletesAFolderThatIsNot) {
+    const TemporaryFolder folder;
+    write_file(folder / "scene.json", small_scene);
+    ASSERT_EQ(record(folder / "scene.json", folder / "out").code, 0);
+    const auto before = test::contents(folder / "out");
+    fs::remove(folder / "out/record.json");
+    fs::remove(folder / "out/depth/000001.png");
+    const Outcome again = record(folder / "scene.json", folder / "out");
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_TRUE(test::contents(folder / "out") == before);
+    EXPECT_EQ(run_program("info " + (folder / "out").string()).code, 0);
+}
+
+TEST(Record, RefusesWhatItCannotFilm) {
+    const TemporaryFolder folder;
+    write_file(folder / "scene.json", small_scene);
+    write_file(folder / "blind.json", without_view());
+    const Outcome blind = record(folder / "blind.json", folder / "out");
+    EXPECT_EQ(blind.code, 65);
+    EXPECT_THAT(blind.err, AllOf(HasSubstr("blind.json"), HasSubstr("'view'")));
+    EXPECT_EQ(record("nowhere", folder / "out").code, 66);
+    for (const char* options : {"--length 0", "--size 0x5", "--size wide", "--truth 9"})
+        EXPECT_EQ(record(folder / "scene.json", folder / "out", options).code, 2) << options;
+    EXPECT_EQ(folder.entries(), 2);
+}
+
+}  // namespace
+}  // namespace inlay
