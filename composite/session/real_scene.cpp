@@ -3,6 +3,7 @@
 #include "recordings/base/parallel.h"
 #include "render/trace/map_primary.h"
 #include "render/trace/screen_real_geometry.h"
+#include "slam/depth/smooth_normals.h"
 #include "slam/mesh/extract_mesh.h"
 
 #include <utility>
@@ -49,7 +50,9 @@ void march_in_image(RealScene& real, const SlamState& slam, const Settings& sett
 SlamStep track_frame_of(SlamState& slam, const RgbdFrame& frame, const Settings& settings) {
     std::optional<Pose> known;
     if (settings.use_recorded_poses) known = frame.recorded_world_from_camera;
-    return advance_slam(slam, frame, settings.slam, known);
+    SlamStep step = advance_slam(slam, frame, settings.slam, known);
+    step.surface.normal = smooth_normals(step.surface);
+    return step;
 }
 
 void update_model(TracedModel& model, const SlamState& slam, int frames_seen,
