@@ -183,9 +183,6 @@ TEST(TwoModeSampler, OccludersOfWeakLightAndAtTheFloorDoNotNarrowTheFilter) {
 
 TEST(TwoModeSampler, TheNearerSurfaceHidesTheOtherBeyondTheTolerance) {
     const auto share_of_real = [](float virtual_depth, float tolerance) {
-        const PlacedScene scene(
-            {mesh_object(quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), Diffuse{}, true),
-             mesh_object(quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), Diffuse{})});
         std::vector<SceneObject> objects{
             mesh_object(quad({-1, -1, -2}, {2, 0, 0}, {0, 2, 0}), Diffuse{}, true),
             mesh_object(quad({-1, -1, -virtual_depth}, {2, 0, 0}, {0, 2, 0}), Diffuse{})};
@@ -199,6 +196,22 @@ TEST(TwoModeSampler, TheNearerSurfaceHidesTheOtherBeyondTheTolerance) {
     EXPECT_EQ(share_of_real(2.1f, 0), 1);
     EXPECT_EQ(share_of_real(2.1f, 0.1f), 0);  // 5 % behind, 10 % tolerated
     EXPECT_EQ(share_of_real(2.5f, 0.1f), 1);
+}
+
+TEST(TwoModeSampler, NoLightReachesVirtualObjectsInAClosedRealRoom) {
+    const PlacedScene scene(
+        {mesh_object(cube_mesh(3), Diffuse{Rgb(0.9f)}, true),
+         sphere_object({0, 0.3, 0}, 0.5f, Phong{Rgb(0.4f), Rgb(0.5f), 20}),
+         sphere_object({1, 0.3, 0}, 0.4f, Ggx{Rgb(1), glm::vec2(0.6f), 1, nullptr})});
+    const NoisyLayers layers =
+        sample_scene(scene, constant_environment(100), lens_of(16, 12, 12), view, {}).layers;
+    const Image<Rgb> nothing(16, 12, Rgb(0));
+    for (const Irradiance& e : {layers.direct, layers.indirect}) {
+        EXPECT_EQ(e.e_r.pixels, nothing.pixels);
+        EXPECT_EQ(e.e_rv_real.pixels, nothing.pixels);
+        EXPECT_EQ(e.e_rv_virtual.pixels, nothing.pixels);
+    }
+    EXPECT_EQ(layers.s_rv.pixels, nothing.pixels);
 }
 
 TEST(TwoModeSampler, AReceiverTellsWhatItIs) {
