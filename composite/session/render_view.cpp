@@ -4,17 +4,11 @@
 #include "render/filter/environment_bandwidth.h"
 #include "render/filter/filter_layers.h"
 #include "render/trace/picture.h"
+#include "render/trace/sample_pass.h"
 
 #include <utility>
 
 namespace inlay {
-namespace {
-
-/// Of the paths behind real hits; the sampler's own dimensions lie below.
-constexpr std::uint32_t first_path_dimension = 64;
-
-}  // namespace
-
 OutputFrame render_view(const SceneView& view, const Settings& settings, int photo_samples) {
     validate(settings);
     OutputFrame out;

@@ -26,7 +26,7 @@ void count_landings(const Landings& landings, Tile& tile) {
         PixelSums& sums = tile.sums[std::size_t(lane)];
         ++sums.primary;
         if (landing.kind == LandingKind::nothing) continue;
-        ReceiverSums& receiver = landing.kind == LandingKind::real ? sums.real : sums.virtual_;
+        ReceiverSums& receiver = receiver_of(sums, landing.kind);
         if (receiver.hits++ == 0) receiver.object = landing.object;
         receiver.position += glm::dvec3(landing.position);
         receiver.normal += glm::dvec3(landing.normal);
@@ -43,7 +43,7 @@ void sample_tile(const TwoModeScene& scene, const SamplingSettings& settings, st
     };
     for (int p = 0; p < settings.primary; ++p) {
         const RayPacket rays = camera_rays(tile.area, scene.lens, scene.world_from_camera,
-                                           pixel_shifts(keys_of(p), 0));
+                                           pixel_shifts(keys_of(p), position_in_pixel));
         const Landings landings = land(scene.real, scene.virtual_objects, rays, tile.area.pixels,
                                        settings.depth_tolerance);
         tile.rays.primary += std::uint64_t(std::popcount(rays.active));
@@ -86,6 +86,7 @@ SamplingSettings with_samples(SamplingSettings settings, int samples) {
 
 TwoModeResult sample_two_modes(const TwoModeScene& scene, const SamplingSettings& settings,
                                std::uint32_t frame) {
+    validate(settings);
     const Lens& lens = scene.lens;
     TwoModeResult result{
         make_noisy_layers(lens, scene.world_from_camera, settings.primary * settings.secondary),
