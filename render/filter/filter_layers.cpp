@@ -211,7 +211,10 @@ void smooth_glossy(const Frames& frames, Layers& result) {
     const std::array<const Image<Rgb>*, 1> images{&now.s_rv};
     const LightLimits limits{LightKind::direct, frames.environment_bandwidth, &now.glossy_bandwidth,
                              now.samples};
-    const Smoothed smoothed = smooth(glossy, images, {}, {limits, limits}, frames.settings);
+    // A highlight may be a pixel wide: where the width says so, it is left alone.
+    FilterSettings settings = frames.settings;
+    settings.narrowest_width = 0;
+    const Smoothed smoothed = smooth(glossy, images, {}, {limits, limits}, settings);
     const Image<Rgb> values = rgb_of(smoothed.channels, 0);
     for (std::size_t i = 0; i < object.pixels.size(); ++i) {
         if (glossy.now.receiver.object.pixels[i] != 0) result.s_rv.pixels[i] = values.pixels[i];

@@ -191,6 +191,8 @@ TEST(FilterLayers, SmoothsGlossyRadianceLessThanDiffuse) {
         rate = 0;
     for (float& rate : now.virtual_.occluder_indirect.pixels)
         rate = 0;
+    for (float& bandwidth : now.glossy_bandwidth.pixels)
+        bandwidth = bandwidth > 0 ? 0.5f : 0.0f;  // a lobe so wide that pixels share it
     now.direct.e_rv_virtual = now.s_rv;
     const Layers smooth = filter_layers(now, nullptr, 9, defaults);
     double diffuse = 0, glossy = 0;
@@ -200,6 +202,15 @@ TEST(FilterLayers, SmoothsGlossyRadianceLessThanDiffuse) {
     }
     EXPECT_LT(glossy, diffuse);
     EXPECT_GT(glossy, 0);
+}
+
+TEST(FilterLayers, LeavesAHighlightNarrowerThanAPixelAlone) {
+    NoisyLayers now = plane_and_ball(13);
+    for (float& bandwidth : now.glossy_bandwidth.pixels)
+        bandwidth = bandwidth > 0 ? 1e6f : 0.0f;
+    const Layers smooth = filter_layers(now, nullptr, 9, defaults);
+    for (std::size_t i = 0; i < now.m.pixels.size(); ++i)
+        ASSERT_EQ(smooth.s_rv.pixels[i], now.s_rv.pixels[i]);
 }
 
 /// The mean square deviation from 1/2 of E_R's direct light, which is uniform noise in 0..1.
