@@ -40,8 +40,7 @@ void add_render_options(CLI::App& subcommand, RenderOptions& o) {
         ->allow_extra_args(false);
 }
 
-Settings settings_from(const RenderOptions& o, const CommonOptions& common) {
-    Settings settings;
+Settings settings_from(const RenderOptions& o, const CommonOptions& common, Settings settings) {
     settings.trace.seed = common.seed;
     apply_quality(settings, o.quality);
     if (o.samples) settings.trace = with_samples(settings.trace, *o.samples);

@@ -25,9 +25,10 @@ struct RenderOptions {
 /// The options refer to `options`, which must outlive the parsing.
 void add_render_options(CLI::App& subcommand, RenderOptions& options);
 
-/// Defaults, then the quality's, then single options, then --set, in this order. Throws Error
+/// `settings`, then the quality's, then single options, then --set, in this order. Throws Error
 /// (usage).
-Settings settings_from(const RenderOptions& options, const CommonOptions& common);
+Settings settings_from(const RenderOptions& options, const CommonOptions& common,
+                       Settings settings = {});
 
 /// name=value, one a line, with units as comments.
 void print_settings(const Settings& settings);

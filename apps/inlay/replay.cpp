@@ -26,6 +26,7 @@ struct ReplayOptions {
     RecordingOptions recording;
     RenderOptions render;
     std::string scene, out, video, shard;
+    std::string slam = "accurate";
     std::string poses, geometry;  // "" = by settings
     bool resume = false, explain = false;
 };
@@ -52,11 +53,13 @@ struct Totals {
     }
 };
 
+/// --set, which comes last, may still change what the other options chose.
 Settings settings_of(const ReplayOptions& o) {
-    Settings settings = settings_from(o.render, o.common);
-    if (!o.poses.empty()) apply_setting(settings, "slam.poses=" + o.poses);
-    if (!o.geometry.empty()) apply_setting(settings, "geometry.kind=" + o.geometry);
-    return settings;
+    Settings chosen;
+    if (o.slam == "fast") chosen.slam = fast_slam();
+    if (!o.poses.empty()) apply_setting(chosen, "slam.poses=" + o.poses);
+    if (!o.geometry.empty()) apply_setting(chosen, "geometry.kind=" + o.geometry);
+    return settings_from(o.render, o.common, chosen);
 }
 
 /// Of the recording's second frame, which unlike the first has one before it.
@@ -169,6 +172,9 @@ std::function<int()> add_replay(CLI::App& subcommand) {
     add_render_options(subcommand, o->render);
     subcommand.add_option("--scene", o->scene, "the scene file: objects and light")->required();
     subcommand.add_option("--out", o->out, "the folder to write")->required();
+    subcommand.add_option("--slam", o->slam, "voxels and iterations: fast or accurate")
+        ->check(CLI::IsMember({"fast", "accurate"}))
+        ->capture_default_str();
     subcommand.add_option("--poses", o->poses, "tracked (default) or recorded")
         ->check(CLI::IsMember({"tracked", "recorded"}));
     subcommand
