@@ -44,7 +44,7 @@ void add_recording_options(CLI::App& subcommand, RecordingOptions& options) {
     std::string names;
     for (const std::string& name : reader_names())
         names += (names.empty() ? "" : ", ") + name;
-    subcommand.add_option("RECORDING", options.path, "The recording's folder")->required();
+    subcommand.add_option("RECORDING", options.path, "The recording's folder");
     subcommand.add_option("--profile", options.profile,
                           "How to read it: " + names + " (default: found by its files)");
     subcommand.add_option("--depth-scale", options.depth_scale, "Stored units per metre")
@@ -62,6 +62,7 @@ void apply(const CommonOptions& options) {
 }
 
 OpenOptions open_options(const RecordingOptions& options) {
+    require(!options.path.empty(), "RECORDING is missing: the recording's folder", ExitCode::usage);
     OpenOptions open;
     if (!options.profile.empty()) open.profile = options.profile;
     if (options.depth_scale > 0) open.depth_scale = options.depth_scale;

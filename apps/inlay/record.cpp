@@ -82,6 +82,9 @@ std::set<int> frames_of(const std::string& list, int frames) {
     const FrameList parsed = parse_frames(list);
     for (int i = 0; i < frames; ++i)
         if (parsed.contains(i)) result.insert(i);
+    require(!result.empty(),
+            "record: none of the frames " + list + " is in 0-" + std::to_string(frames - 1),
+            ExitCode::usage);
     return result;
 }
 

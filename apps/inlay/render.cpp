@@ -86,7 +86,9 @@ int run(const RenderCommandOptions& o) {
         return 0;
     }
     const std::vector<std::string> layers = parse_layers(o.render.layers);
-    require_picture_name(o.out);
+    require(!o.scene.empty(), "render: SCENE is missing: a scene file with a 'view'",
+            ExitCode::usage);
+    if (!o.explain) require_picture_name(o.out);
     const SceneFile file =
         load_scene_file(o.scene, {o.render.assets.begin(), o.render.assets.end()});
     for (const std::string& warning : file.warnings)
@@ -97,14 +99,12 @@ int run(const RenderCommandOptions& o) {
     const LoadedEnvironment light = load_environment(file.environment, file.view->up, {0, 0, 1});
     if (light.replaced_texels > 0) spdlog::warn("{}", replaced_texels_text(light));
     const EnvironmentSampler environment = make_environment_sampler(light.map);
+    const SceneView view{scene, environment, file.view->lens, file.view->world_from_camera, o.time};
     if (o.explain) {
-        std::cout << explain(plan_effects(
-            gather_facts(scene, environment.mean_luminance > 0, o.time, o.time), settings.filter));
+        std::cout << explain(plan_effects(facts_of_view(view), settings.filter));
         return 0;
     }
-    const OutputFrame out =
-        render_view({scene, environment, file.view->lens, file.view->world_from_camera, o.time},
-                    settings, o.photo_samples);
+    const OutputFrame out = render_view(view, settings, o.photo_samples);
     write_result(o, out, layers);
     print_totals(o, out);
     return 0;
@@ -114,8 +114,8 @@ int run(const RenderCommandOptions& o) {
 
 std::function<int()> add_render(CLI::App& subcommand) {
     const auto o = std::make_shared<RenderCommandOptions>();
-    subcommand.add_option("SCENE", o->scene, "the scene file, with a 'view'")->required();
-    subcommand.add_option("--out", o->out, "the picture to write, .exr or .png")->required();
+    subcommand.add_option("SCENE", o->scene, "the scene file, with a 'view'");
+    subcommand.add_option("--out", o->out, "the picture to write, .exr or .png");
     subcommand.add_option("--time", o->time, "s, for objects that move")->capture_default_str();
     subcommand
         .add_option("--photo-samples", o->photo_samples,

@@ -105,7 +105,9 @@ bool play(Session& session, const Recording& recording, const std::vector<int>& 
     std::vector<int> open;
     for (const int frame : frames)
         if (!output.finished.contains(frame)) open.push_back(frame);
-    const auto tasks = plan_frames(recording.info.frames, open, session.settings.filter.temporal);
+    const FilterSettings& filter = session.settings.filter;
+    const bool temporal = filter.enabled && filter.temporal;
+    const auto tasks = plan_frames(recording.info.frames, open, temporal);
     Progress progress("frames", int(tasks.size()), o.common.quiet);
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         if (interrupted()) return false;
@@ -134,6 +136,10 @@ int run(const ReplayOptions& o, const std::string& command) {
         print_settings(settings);
         return 0;
     }
+    require(!o.scene.empty(), "replay: --scene is missing: a scene file, as apps/demo/scene.json",
+            ExitCode::usage);
+    require(o.explain || !o.out.empty(), "replay: --out is missing: the folder to write",
+            ExitCode::usage);
     const std::vector<std::string> layers = parse_layers(o.render.layers);
     const Recording recording = open_and_note(o.recording, o.common);
     const std::vector<int> frames =
@@ -170,8 +176,8 @@ std::function<int()> add_replay(CLI::App& subcommand) {
     add_recording_options(subcommand, o->recording);
     add_common_options(subcommand, o->common);
     add_render_options(subcommand, o->render);
-    subcommand.add_option("--scene", o->scene, "the scene file: objects and light")->required();
-    subcommand.add_option("--out", o->out, "the folder to write")->required();
+    subcommand.add_option("--scene", o->scene, "the scene file: objects and light");
+    subcommand.add_option("--out", o->out, "the folder to write");
     subcommand.add_option("--slam", o->slam, "voxels and iterations: fast or accurate")
         ->check(CLI::IsMember({"fast", "accurate"}))
         ->capture_default_str();

@@ -5,50 +5,31 @@
 
 #include <algorithm>
 #include <sstream>
+#include <string_view>
 
 namespace inlay {
 namespace {
 
-struct ColorLayer {
-    const char* name;
-    const Image<Rgb>& (*of)(const Layers&);
-    const Image<Rgb>& (*noisy)(const NoisyLayers&);
-};
+constexpr const char* color_names[] = {"E_R_direct",
+                                       "E_R_indirect",
+                                       "E_RV_real_direct",
+                                       "E_RV_real_indirect",
+                                       "E_RV_virtual_direct",
+                                       "E_RV_virtual_indirect",
+                                       "S_RV",
+                                       "k_V"};
 
-const ColorLayer color_layers[] = {{"E_R_direct", [](const Layers& l) -> auto& {return l.direct.e_r;
-}  // namespace
-, [](const NoisyLayers& l) -> auto& { return l.direct.e_r; }
-}  // namespace inlay
-, {"E_R_indirect", [](const Layers& l) -> auto& {return l.indirect.e_r;
+/// The image of a color layer; `AnyLayers` is Layers or NoisyLayers.
+template <class AnyLayers>
+const Image<Rgb>& color_image(const AnyLayers& layers, std::string_view name) {
+    if (name == "E_R_direct") return layers.direct.e_r;
+    if (name == "E_R_indirect") return layers.indirect.e_r;
+    if (name == "E_RV_real_direct") return layers.direct.e_rv_real;
+    if (name == "E_RV_real_indirect") return layers.indirect.e_rv_real;
+    if (name == "E_RV_virtual_direct") return layers.direct.e_rv_virtual;
+    if (name == "E_RV_virtual_indirect") return layers.indirect.e_rv_virtual;
+    return name == "S_RV" ? layers.s_rv : layers.k_v;
 }
-, [](const NoisyLayers& l) -> auto& { return l.indirect.e_r; }
-}
-, {"E_RV_real_direct", [](const Layers& l) -> auto& {return l.direct.e_rv_real;
-}
-, [](const NoisyLayers& l) -> auto& { return l.direct.e_rv_real; }
-}
-, {"E_RV_real_indirect", [](const Layers& l) -> auto& {return l.indirect.e_rv_real;
-}
-, [](const NoisyLayers& l) -> auto& { return l.indirect.e_rv_real; }
-}
-, {"E_RV_virtual_direct", [](const Layers& l) -> auto& {return l.direct.e_rv_virtual;
-}
-, [](const NoisyLayers& l) -> auto& { return l.direct.e_rv_virtual; }
-}
-, {"E_RV_virtual_indirect", [](const Layers& l) -> auto& {return l.indirect.e_rv_virtual;
-}
-, [](const NoisyLayers& l) -> auto& { return l.indirect.e_rv_virtual; }
-}
-, {"S_RV", [](const Layers& l) -> auto& {return l.s_rv;
-}
-, [](const NoisyLayers& l) -> auto& { return l.s_rv; }
-}
-, {
-    "k_V", [](const Layers& l) -> auto& { return l.k_v; }
-    , nullptr
-}
-}
-;
 
 const std::string noisy_suffix = "_noisy";
 
@@ -92,11 +73,9 @@ const Image<float>& or_constant(NamedLayers& out, const Image<float>& image, con
 ExrLayer color_layer_of(NamedLayers& out, const OutputFrame& frame, const std::string& name) {
     const bool noisy = name.ends_with(noisy_suffix);
     const std::string base = noisy ? name.substr(0, name.size() - noisy_suffix.size()) : name;
-    const auto row = std::find_if(std::begin(color_layers), std::end(color_layers),
-                                  [&](const ColorLayer& l) { return base == l.name; });
     const Image<Rgb>* image = nullptr;
-    if (!noisy) image = &row->of(frame.layers);
-    if (noisy && frame.noisy) image = &row->noisy(*frame.noisy);
+    if (!noisy) image = &color_image(frame.layers, base);
+    if (noisy && frame.noisy) image = &color_image(*frame.noisy, base);
     if (!image || image->empty()) {
         const Image<Rgb>& like = frame.composite.linear;
         image = &out.vectors.emplace_back(like.width, like.height, Rgb(0));
@@ -122,14 +101,12 @@ ExrLayer layer_of(NamedLayers& out, const OutputFrame& frame, const std::string&
 
 const std::vector<std::string>& layer_names() {
     static const std::vector<std::string> names = [] {
-        std::vector<std::string> all;
-        for (const ColorLayer& l : color_layers)
-            all.emplace_back(l.name);
+        std::vector<std::string> all(std::begin(color_names), std::end(color_names));
         for (const char* name :
              {"M", "camera", "P", "N", "Z", "bandwidth_direct", "bandwidth_indirect"})
             all.emplace_back(name);
-        for (const ColorLayer& l : color_layers)
-            if (l.noisy) all.push_back(l.name + noisy_suffix);
+        for (const std::string_view name : color_names)  // albedo is not filtered
+            if (name != "k_V") all.push_back(std::string(name) + noisy_suffix);
         return all;
     }();
     return names;

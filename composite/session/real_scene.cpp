@@ -59,7 +59,7 @@ void update_model(TracedModel& model, const SlamState& slam, int frames_seen,
                   const GeometrySettings& settings) {
     if (settings.kind != RealGeometryKind::model) return;
     const int due = frames_seen - frames_seen % settings.model_interval;
-    if (model.frame == due) return;
+    if (model.frame == due && !model.mesh->parts().empty()) return;
     auto mesh = std::make_shared<const TriangleMesh>(extract_mesh(slam.volume));
     model.mesh = std::make_shared<const EmbreeScene>(model.cache.place(std::move(mesh)));
     model.frame = due;

@@ -9,6 +9,13 @@
 #include <utility>
 
 namespace inlay {
+SceneFacts facts_of_view(const SceneView& view) {
+    SceneFacts facts =
+        gather_facts(view.scene, view.environment.mean_luminance > 0, view.time, view.time);
+    facts.first_frame = true;
+    return facts;
+}
+
 OutputFrame render_view(const SceneView& view, const Settings& settings, int photo_samples) {
     validate(settings);
     OutputFrame out;
@@ -16,10 +23,7 @@ OutputFrame render_view(const SceneView& view, const Settings& settings, int pho
     EmbreeSceneCache structures;
     const EmbreeScene real_objects = structures.place(view.scene, view.time, /*real=*/true);
     const EmbreeScene virtual_objects = structures.place(view.scene, view.time, /*real=*/false);
-    SceneFacts facts =
-        gather_facts(view.scene, view.environment.mean_luminance > 0, view.time, view.time);
-    facts.first_frame = true;
-    out.plan = plan_effects(facts, settings.filter);
+    out.plan = plan_effects(facts_of_view(view), settings.filter);
     out.ms.plan = watch.lap();
 
     const PictureView camera{view.lens, view.world_from_camera, settings.trace.seed, 0};

@@ -14,6 +14,9 @@ struct SceneView {
     double time = 0;  // s
 };
 
+/// What the plan of a view looks at.
+SceneFacts facts_of_view(const SceneView& view);
+
 /// Runs both modes with exact real geometry, filters and composites (Mehta 2015, ch. 6). The
 /// photograph is the path-traced picture of the real objects alone with `photo_samples` paths per
 /// pixel; without real objects it is the environment as the camera sees it. settings.slam and

@@ -109,5 +109,13 @@ TEST(Record, RefusesWhatItCannotFilm) {
     EXPECT_EQ(folder.entries(), 2);
 }
 
+TEST(Record, RefusesFramesThatDoNotExist) {
+    const TemporaryFolder folder;
+    const std::string out = " --length 1 --size 16x12 --samples 2 --out " + (folder / "r").string();
+    EXPECT_EQ(run_program("record desk --frames 5" + out).code, 2);
+    EXPECT_EQ(run_program("record desk --truth 7" + out).code, 2);
+    EXPECT_EQ(folder.entries(), 0);
+}
+
 }  // namespace
 }  // namespace inlay

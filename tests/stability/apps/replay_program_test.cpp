@@ -185,6 +185,13 @@ TEST(Replay, ExplainsAndWritesNothing) {
     EXPECT_EQ(folder.entries(), 0);
 }
 
+TEST(Replay, PrintsSettingsWithoutAnyInput) {
+    const Outcome printed = run_program("replay --print-settings");
+    EXPECT_EQ(printed.code, 0) << printed.err;
+    EXPECT_THAT(printed.out, HasSubstr("filter.kernel_radius="));
+    EXPECT_EQ(run_program("replay").code, 2);
+}
+
 TEST(Replay, TakesEverySettingBackThatItPrints) {
     const TemporaryFolder folder;
     const std::string changed = "--print-settings --seed 7 --set filter.normal_stop_deg=33 ";
