@@ -7,8 +7,7 @@ namespace inlay {
 
 std::array<RealPrimaryHit, packet_width> map_primary(
     const SurfaceMap& map, const RayPacket& rays,
-    const std::array<glm::ivec2, packet_width>& pixels) {
-    constexpr float largest_tilt = 0.05f;  // share of depth, as the screen tracer's default
+    const std::array<glm::ivec2, packet_width>& pixels, float largest_tilt) {
     std::array<RealPrimaryHit, packet_width> hits;
     const glm::mat3 rotation(map.world_from_camera.rotation);
     const glm::vec3 forward = rotation[2];

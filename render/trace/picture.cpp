@@ -1,35 +1,29 @@
 #include "render/trace/picture.h"
 
 #include "recordings/base/parallel.h"
+#include "render/trace/pixel_sums.h"
 #include "render/trace/pixel_tile.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 namespace inlay {
 namespace {
 
-/// Running sums of a pixel's samples.
-struct Moments {
-    glm::dvec3 sum{0.0}, squares{0.0};
-    int count = 0, dropped = 0;
+/// A sum over samples that also knows how far its mean may be off.
+struct SumWithSpread {
+    SampleSum samples;
+    glm::dvec3 squares{0.0};
 
     void add(const Rgb& value) {
-        if (!std::isfinite(value.r + value.g + value.b)) {
-            ++dropped;
-            return;
-        }
-        sum += glm::dvec3(value);
-        squares += glm::dvec3(value) * glm::dvec3(value);
-        ++count;
+        if (samples.add(value)) squares += glm::dvec3(value) * glm::dvec3(value);
     }
-    glm::dvec3 mean() const { return count > 0 ? sum / double(count) : glm::dvec3(0); }
-    glm::dvec3 standard_error() const {
-        if (count < 2) return glm::dvec3(0);
-        const glm::dvec3 spread =
-            glm::max(squares - double(count) * mean() * mean(), glm::dvec3(0));
-        return glm::sqrt(spread / (double(count) * (count - 1)));
+    Rgb standard_error() const {
+        const double count = samples.count;
+        if (count < 2) return Rgb(0);
+        const glm::dvec3 mean = samples.sum / count;
+        const glm::dvec3 spread = glm::max(squares - count * mean * mean, glm::dvec3(0));
+        return Rgb(glm::sqrt(spread / (count * (count - 1))));
     }
 };
 
@@ -45,7 +39,7 @@ Picture trace_picture(const EmbreeScene& scene, const EnvironmentSampler& enviro
     parallel_for(tile_rows(lens), [&](int row) {
         for (int column = 0; column < tile_columns(lens); ++column) {
             const PixelTile tile = tile_at(lens, column, row);
-            std::array<Moments, packet_width> moments;
+            std::array<SumWithSpread, packet_width> sums;
             for (int s = 0; s < samples; ++s) {
                 const SampleKeys keys =
                     sample_keys(tile, lens, {view.seed, view.frame, 0, std::uint32_t(s)});
@@ -54,15 +48,15 @@ Picture trace_picture(const EmbreeScene& scene, const EnvironmentSampler& enviro
                 const RadiancePacket radiance =
                     trace_paths(scene, environment, rays, keys, settings);
                 for (std::size_t i = 0; i < packet_width; ++i)
-                    moments[i].add(radiance[i]);
+                    sums[i].add(radiance[i]);
             }
             for (int lane = 0; lane < packet_width; ++lane) {
                 if (!tile.has(lane)) continue;
                 const auto i = std::size_t(lane);
-                picture.radiance(tile.pixels[i].x, tile.pixels[i].y) = Rgb(moments[i].mean());
+                picture.radiance(tile.pixels[i].x, tile.pixels[i].y) = sums[i].samples.mean();
                 picture.standard_error(tile.pixels[i].x, tile.pixels[i].y) =
-                    Rgb(moments[i].standard_error());
-                dropped[std::size_t(row)] += std::uint64_t(moments[i].dropped);
+                    sums[i].standard_error();
+                dropped[std::size_t(row)] += std::uint64_t(sums[i].samples.dropped);
             }
         }
     });

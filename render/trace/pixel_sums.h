@@ -15,13 +15,15 @@ struct SampleSum {
     glm::dvec3 sum{0.0};
     int count = 0, dropped = 0;
 
-    void add(const Rgb& value) {
+    /// Whether the value was finite, and so is part of the sum.
+    bool add(const Rgb& value) {
         if (!std::isfinite(value.r + value.g + value.b)) {
             ++dropped;
-            return;
+            return false;
         }
         sum += glm::dvec3(value);
         ++count;
+        return true;
     }
     Rgb mean() const { return count > 0 ? Rgb(sum / double(count)) : Rgb(0); }
 };

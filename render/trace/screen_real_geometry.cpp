@@ -52,8 +52,9 @@ RealGeometry screen_real_geometry(const PhotographedSurface& seen,
             "screen tracer: photograph, surface map and pyramid differ in size");
     RealGeometry real;
     real.offset = settings.offset;
-    real.primary = [&surface = seen.surface](const RayPacket& rays, const auto& pixels) {
-        return map_primary(surface, rays, pixels);
+    real.primary = [&surface = seen.surface, tilt = settings.largest_tilt](const RayPacket& rays,
+                                                                           const auto& pixels) {
+        return map_primary(surface, rays, pixels, tilt);
     };
     real.distances = [map, counts](const RayPacket& rays) {
         return distances_of(trace_packet(*map, rays, counts.get()));
