@@ -45,7 +45,7 @@ CameraView camera_view(const Lens& lens) {
             if (numbers == key) return view;
         }
     }
-    const CameraView view = make_view(lens);  // outside the lock: it uses threads itself
+    CameraView view = make_view(lens);  // outside the lock: it uses threads itself
     const std::lock_guard lock(mutex);
     kept.emplace_front(key, view);
     if (kept.size() > tables_kept) kept.pop_back();

@@ -50,7 +50,8 @@ float smoothed(const Image<float>& clean, int x, int y, const std::vector<float>
     float sum = 0, weight = 0;
     for (int v = std::max(-r, -y); v <= std::min(r, clean.height - 1 - y); ++v) {
         const float* row = &clean.pixels[clean.index(x, y + v)];
-        const float* near = &spatial[std::size_t((v + r) * (2 * r + 1) + r)];
+        const int middle = (v + r) * (2 * r + 1) + r;
+        const float* near = &spatial[std::size_t(middle)];
         for (int u = left; u <= right; ++u) {
             const float difference = (row[u] - z) * per_step;
             const float kept = std::max(0.0f, 1 - difference * difference);

@@ -71,6 +71,7 @@ std::vector<Pose> similar_views(const std::vector<Keyframe>& keyframes, const Im
                                 int count) {
     const Image<float> thumbnail = make_thumbnail(depth);
     std::vector<float> differences;
+    differences.reserve(keyframes.size());
     for (const Keyframe& kept : keyframes) {
         differences.push_back(difference(thumbnail, kept.thumbnail));
     }
