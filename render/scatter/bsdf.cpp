@@ -33,19 +33,28 @@ Rgb textured(const Rgb& factor, const std::shared_ptr<const Texture>& texture, g
     return texture && !texture->empty() ? factor * look_up(*texture, uv) : factor;
 }
 
-Bsdf at(const Diffuse& m, glm::vec2 uv, float) {
-    return {textured(m.reflectance, m.texture, uv), std::nullopt};
+/// Where a material is looked up.
+struct MaterialPoint {
+    glm::vec2 uv;
+    float viewer_cosine;
+    Rgb vertex_color;
+};
+
+Bsdf at(const Diffuse& m, const MaterialPoint& point) {
+    const Rgb albedo = textured(m.reflectance, m.texture, point.uv);
+    if (!m.vertex_colors) return {albedo, std::nullopt};
+    return {albedo * glm::clamp(point.vertex_color, 0.0f, 1.0f), std::nullopt};
 }
 
-Bsdf at(const Phong& m, glm::vec2 uv, float) {
-    return {textured(m.diffuse, m.texture, uv), PhongLobe{m.specular, m.exponent}};
+Bsdf at(const Phong& m, const MaterialPoint& point) {
+    return {textured(m.diffuse, m.texture, point.uv), PhongLobe{m.specular, m.exponent}};
 }
 
-Bsdf at(const Ggx& m, glm::vec2 uv, float viewer_cosine) {
-    const Rgb base = textured(m.base_color, m.texture, uv);
+Bsdf at(const Ggx& m, const MaterialPoint& point) {
+    const Rgb base = textured(m.base_color, m.texture, point.uv);
     constexpr float dielectric = 0.04f;  // reflectance at normal incidence
     const Rgb f0 = glm::mix(Rgb(dielectric), base, m.metallic);
-    const float grazing = std::pow(1 - std::clamp(viewer_cosine, 0.0f, 1.0f), 5.0f);
+    const float grazing = std::pow(1 - std::clamp(point.viewer_cosine, 0.0f, 1.0f), 5.0f);
     const float refracted = (1 - dielectric) * (1 - grazing);
     const glm::vec2 alpha = glm::max(m.roughness * m.roughness, glm::vec2(1e-3f));
     return {base * (1 - m.metallic) * refracted, GgxLobe{f0, alpha}};
@@ -102,8 +111,9 @@ float equivalent_exponent(const GgxLobe& lobe) { return 0.5f / (lobe.alpha.x * l
 
 }  // namespace
 
-Bsdf bsdf_at(const Material& material, glm::vec2 uv, float viewer_cosine) {
-    return std::visit([&](const auto& m) { return at(m, uv, viewer_cosine); }, material);
+Bsdf bsdf_at(const Material& material, glm::vec2 uv, float viewer_cosine, const Rgb& vertex_color) {
+    const MaterialPoint point{uv, viewer_cosine, vertex_color};
+    return std::visit([&](const auto& m) { return at(m, point); }, material);
 }
 
 ScatterFrame scatter_frame(const glm::vec3& normal, const glm::vec3& towards_viewer) {

@@ -39,8 +39,10 @@ ScatterFrame scatter_frame(const glm::vec3& normal, const glm::vec3& towards_vie
 /// `uv`: texture coordinates, (0, 0) = top left; repeats outside 0..1. Bilinear. `viewer_cosine`
 /// (0..1) between normal and viewer: what a dielectric's surface reflects, by Schlick's Fresnel
 /// term, does not reach its base. Taking the viewer's angle alone keeps the base Lambertian in the
-/// light's direction, and the sum of both parts at most 1.
-Bsdf bsdf_at(const Material& material, glm::vec2 uv, float viewer_cosine);
+/// light's direction, and the sum of both parts at most 1. `vertex_color`: linear, kept within
+/// 0..1, for a material that asks for it.
+Bsdf bsdf_at(const Material& material, glm::vec2 uv, float viewer_cosine,
+             const Rgb& vertex_color = Rgb(1));
 
 /// Glossy part of the BSDF times the cosine at the surface (1/sr); the diffuse part is albedo / pi.
 Rgb eval_glossy(const Bsdf& bsdf, const ScatterFrame& frame, const glm::vec3& towards_light);

@@ -16,6 +16,7 @@ using Texture = Image<Rgb>;
 struct Diffuse {
     Rgb reflectance{0.5f};                        // 0..1
     std::shared_ptr<const Texture> texture = {};  // optional; multiplies `reflectance`
+    bool vertex_colors = false;                   // so do the mesh's own colors
 };
 
 /// Lambertian plus a cosine-power lobe about the mirror direction (Mehta 2015, sec. 6.6.3):

@@ -9,6 +9,8 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace inlay {
@@ -30,6 +32,14 @@ glm::dmat4 to_glm(const aiMatrix4x4& m) {
 }
 
 glm::vec3 to_glm(const aiVector3D& v) { return {v.x, v.y, v.z}; }
+
+/// A file's sRGB color as linear color.
+Rgb linear_color(const aiColor4D& c) {
+    const auto byte = [](float v) {
+        return std::uint8_t(std::lround(255 * (v > 0 ? std::min(v, 1.0f) : 0.0f)));
+    };
+    return decode(EncodedRgb{byte(c.r), byte(c.g), byte(c.b)});
+}
 
 /// Every mesh with its node's transform, in the order of the file.
 std::vector<Instance> instances(const aiScene& scene) {
@@ -64,6 +74,7 @@ TriangleMesh to_triangles(const Instance& instance, const std::string& place) {
             const aiVector3D& uv = source.mTextureCoords[0][i];
             mesh.texture_coordinates.emplace_back(uv.x, 1 - uv.y);  // the importers' v points up
         }
+        if (source.HasVertexColors(0)) mesh.colors.push_back(linear_color(source.mColors[0][i]));
     }
     for (unsigned i = 0; i < source.mNumFaces; ++i) {
         const aiFace& face = source.mFaces[i];
@@ -108,6 +119,20 @@ void require_all_triangles(const MeshImport& import) {
                                  " triangles refer to vertices that do not exist; repair the mesh");
 }
 
+/// A PLY's vertex colors are its material. Those of other formats would multiply the file's
+/// materials; they are left out.
+void take_vertex_colors(std::optional<Material>& material, const fs::path& file,
+                        std::vector<std::string>& warnings) {
+    if (mesh_extension(file) == ".ply") {
+        material = Diffuse{Rgb(1), nullptr, true};
+        return;
+    }
+    const std::string text =
+        file.string() + ": vertex colors are used from PLY files alone; these were left out";
+    if (std::find(warnings.begin(), warnings.end(), text) == warnings.end())
+        warnings.push_back(text);
+}
+
 LoadedMesh collect(const MeshImport& import, MeshMaterials materials) {
     const aiScene& scene = *import.importer->GetScene();
     const std::vector<Instance> meshes = instances(scene);
@@ -119,7 +144,10 @@ LoadedMesh collect(const MeshImport& import, MeshMaterials materials) {
         const unsigned index = instance.mesh->mMaterialIndex;
         if (materials == MeshMaterials::read && !by_index.contains(index))
             by_index[index] = own_material(import, index, result.warnings);
-        append(result, instance, by_index[index],
+        std::optional<Material> material = by_index[index];
+        if (materials == MeshMaterials::read && instance.mesh->HasVertexColors(0))
+            take_vertex_colors(material, import.file, result.warnings);
+        append(result, instance, material,
                import.file.string() + ": mesh \"" + instance.mesh->mName.C_Str() + "\"");
     }
     require(!result.parts.empty(), import.file.string() + ": holds no triangle with an area (" +

@@ -28,10 +28,11 @@ struct LoadedMesh {
 
 /// Reads a .obj, .ply, .gltf or .glb file, node transforms applied. Polygons are cut into
 /// triangles, triangles without area dropped, missing normals made smooth (area-weighted). An OBJ's
-/// Kd and map_Kd become Diffuse, a glTF's material Ggx; of a metallic-roughness texture the mean is
-/// used. Whatever the file refers to must lie in `assets`. Throws Error: input_missing; bad_data
-/// for damaged files, indices out of range, values that are not finite, sizes that the file cannot
-/// hold, more than 20 million triangles, and references that leave the folders.
+/// Kd and map_Kd become Diffuse, so do a PLY's vertex colors (sRGB); a glTF's material Ggx; of a
+/// metallic-roughness texture the mean is used. Whatever the file refers to must lie in `assets`.
+/// Throws Error: input_missing; bad_data for damaged files, indices out of range, values that are
+/// not finite, sizes that the file cannot hold, more than 20 million triangles, and references that
+/// leave the folders.
 LoadedMesh load_mesh(const std::filesystem::path& file, const AssetFolders& assets,
                      MeshMaterials materials = MeshMaterials::read);
 

@@ -14,7 +14,8 @@ Landing land_on_virtual(const EmbreeScene& objects, const SurfaceHit& hit, const
     landing.geometric_normal = behind ? -point.geometric_normal : point.geometric_normal;
     landing.frame = scatter_frame(point.shading_normal, -direction);
     landing.normal = landing.frame.world_from_local[2];
-    landing.bsdf = bsdf_at(part.material, point.uv, -glm::dot(landing.normal, direction));
+    landing.bsdf =
+        bsdf_at(part.material, point.uv, -glm::dot(landing.normal, direction), point.vertex_color);
     landing.object = part.object + 1;
     return landing;
 }

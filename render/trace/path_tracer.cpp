@@ -31,7 +31,7 @@ PathVertex vertex_at(const EmbreeScene& scene, const SurfaceHit& hit, const glm:
     v.point = scene.surface_point(hit, origin, direction);
     v.frame = scatter_frame(v.point.shading_normal, -direction);
     v.bsdf = bsdf_at(scene.parts()[hit.part].material, v.point.uv,
-                     -glm::dot(v.frame.world_from_local[2], direction));
+                     -glm::dot(v.frame.world_from_local[2], direction), v.point.vertex_color);
     v.glossy_share = !v.bsdf.glossy ? 0.0f : luminance(v.bsdf.diffuse) > 0 ? 0.5f : 1.0f;
     return v;
 }

@@ -169,6 +169,24 @@ std::string buffer(std::uint16_t last_index) {
     return bytes.append(reinterpret_cast<const char*>(indices), 6);
 }
 
+/// The texture's two texels differ: green (roughness) 10 and 200, blue (metallic) 0 and 100.
+TEST_F(Meshes, OfVaryingRoughnessTheMeanIsUsedWithAWarning) {
+    write("t.bin", buffer(2));
+    std::string text = gltf("t.bin", "3", "36");
+    text.replace(text.find("\"indices\": 1"), 12, "\"indices\": 1, \"material\": 0");
+    text.insert(1, R"("materials": [{"pbrMetallicRoughness": {"metallicRoughnessTexture":
+      {"index": 0}}}], "textures": [{"source": 0}], "images": [{"uri": "data:image/png;base64,
+iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAAD0lEQVR42mNg4GJgOJECAAItATfdPuyMAAAAAElFTkSuQmCC"}],)");
+    text.erase(text.find("base64,\n") + 7, 1);
+    write("a.gltf", text);
+    const LoadedMesh mesh = load("a.gltf");
+    const auto& paint = std::get<Ggx>(mesh.parts.at(0).material.value());
+    EXPECT_NEAR(paint.roughness.x, 105 / 255.0, 1e-6);  // float
+    EXPECT_NEAR(paint.metallic, 50 / 255.0, 1e-6);
+    ASSERT_EQ(mesh.warnings.size(), 1u);
+    EXPECT_NE(mesh.warnings[0].find("a.gltf: roughness and metallic vary"), std::string::npos);
+}
+
 TEST_F(Meshes, GltfBuffersAreChecked) {
     write("t.bin", buffer(2));
     write("a.gltf", gltf("t.bin", "3", "36"));

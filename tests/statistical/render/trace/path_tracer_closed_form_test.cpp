@@ -54,6 +54,19 @@ TEST(PathTracer, APlaneInAFurnaceShowsItsAlbedo) {
     }
 }
 
+/// Colors that are linear in x over a floor of half-width 1: its triangles show them unchanged.
+TEST(PathTracer, APlaneInAFurnaceShowsTheColorsOfItsVertices) {
+    const EnvironmentSampler furnace = constant_environment(1);
+    TriangleMesh floor = floor_mesh(1);
+    for (const glm::vec3& p : floor.positions)
+        floor.colors.emplace_back(0.5f + 0.3f * p.x);
+    const PlacedScene scene({mesh_object(floor, Diffuse{Rgb(1), nullptr, true})});
+    for (const float x : {-0.9f, 0.1f, 0.7f}) {
+        const TestRay ray{{x, 1, 0.3f}, {x, 0, 0.3f}};
+        EXPECT_TRUE(has_mean(mean_radiance(scene.all, furnace, ray, 500), 0.5 + 0.3 * x)) << x;
+    }
+}
+
 struct AlbedoCase {
     glm::vec2 alpha;
     double theta_deg, phi_deg, albedo;

@@ -175,6 +175,37 @@ TEST(MeshFiles, TheMeshesAtHandHaveTheCountsOfTheirFiles) {
     }
 }
 
+TEST(MeshFiles, VertexColorsOfAPlyAreItsReflectance) {
+    const TemporaryFolder folder;
+    write(folder / "a.ply",
+          "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+          "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+          "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+          "0 0 0 255 0 0\n1 0 0 0 188 0\n0 1 0 0 0 10\n3 0 1 2\n");
+    const LoadedMesh loaded = load_mesh(folder / "a.ply", {{fs::canonical(folder / ".")}});
+    const LoadedPart& part = loaded.parts.at(0);
+    const auto& paint = std::get<Diffuse>(part.material.value());
+    EXPECT_TRUE(paint.vertex_colors);
+    EXPECT_EQ(paint.reflectance, Rgb(1));
+    ASSERT_EQ(part.mesh.colors.size(), part.mesh.positions.size());
+    for (std::size_t i = 0; i < part.mesh.positions.size(); ++i) {
+        const glm::vec3& p = part.mesh.positions[i];
+        const EncodedRgb expected = p.x > 0   ? EncodedRgb{0, 188, 0}
+                                    : p.y > 0 ? EncodedRgb{0, 0, 10}
+                                              : EncodedRgb{255, 0, 0};
+        EXPECT_EQ(part.mesh.colors[i], decode(expected));
+    }
+    EXPECT_TRUE(loaded.warnings.empty());
+}
+
+TEST(MeshFiles, VertexColorsOfOtherFormatsAreLeftOutWithAWarning) {
+    const TemporaryFolder folder;
+    write(folder / "a.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n");
+    const LoadedMesh colored = load_mesh(folder / "a.obj", {{fs::canonical(folder / ".")}});
+    ASSERT_EQ(colored.warnings.size(), 1u);
+    EXPECT_NE(colored.warnings[0].find("a.obj: vertex colors"), std::string::npos);
+}
+
 TEST(MeshFiles, TextureCoordinatesStartAtTheTopLeft) {
     if (!fs::exists(meshes)) GTEST_SKIP() << meshes << " is absent";
     // The only pure black of spot's texture are her eyes: one on each side of the head, at -z.
