@@ -73,6 +73,7 @@ TrajectoryError absolute_error(std::span<const Pose> estimated, std::span<const 
     require_pairs(estimated, reference, 1);
     const Pose reference_from_estimated = align(estimated, reference);
     std::vector<Pose> differences;
+    differences.reserve(estimated.size());
     for (std::size_t i = 0; i < estimated.size(); ++i) {
         differences.push_back(inverse(reference[i]) * (reference_from_estimated * estimated[i]));
     }
@@ -85,6 +86,7 @@ TrajectoryError relative_error(std::span<const Pose> estimated, std::span<const 
     const auto step = std::size_t(frames);
     require_pairs(estimated, reference, step + 1);
     std::vector<Pose> differences;
+    differences.reserve(estimated.size());
     for (std::size_t i = 0; i + step < estimated.size(); ++i) {
         const Pose true_motion = inverse(reference[i]) * reference[i + step];
         const Pose motion = inverse(estimated[i]) * estimated[i + step];

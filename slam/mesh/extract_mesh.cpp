@@ -63,7 +63,8 @@ bool read_cell(const BrickDistances& distances, const glm::ivec3& cell,
     int inside = 0;
     for (std::size_t c = 0; c < cell_corners.size(); ++c) {
         const glm::ivec3 at = cell + cell_corners[c];
-        const float d = distances[std::size_t((at.z * 9 + at.y) * 9 + at.x)];
+        const int corner = (at.z * 9 + at.y) * 9 + at.x;
+        const float d = distances[std::size_t(corner)];
         if (!is_known(d)) return false;
         values[c] = std::abs(d) < least_distance ? (d < 0 ? -least_distance : least_distance) : d;
         inside += d < 0;
