@@ -2,10 +2,8 @@
 
 #include "recordings/base/check.h"
 #include "recordings/environment/exr_image.h"
+#include "recordings/environment/hdr_image.h"
 #include "recordings/readers/image_files.h"
-
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -23,32 +21,14 @@ std::string lower_extension(const fs::path& file) {
     return extension;
 }
 
-Picture from_linear(Image<Rgb> linear) {
+ComparedPicture from_linear(Image<Rgb> linear) {
     Image<EncodedRgb> display = encode(linear);
     return {std::move(linear), std::move(display)};
 }
 
-Picture from_display(Image<EncodedRgb> display) {
+ComparedPicture from_display(Image<EncodedRgb> display) {
     Image<Rgb> linear = decode(display);
     return {std::move(linear), std::move(display)};
-}
-
-Image<Rgb> read_hdr(const fs::path& file) {
-    cv::Mat bgr;
-    try {
-        bgr = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
-    } catch (const cv::Exception&) {
-        bgr.release();
-    }
-    require(bgr.type() == CV_32FC3 && !bgr.empty(),
-            file.string() + ": is no Radiance HDR picture, or is damaged");
-    Image<Rgb> image(bgr.cols, bgr.rows);
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) {
-            const auto& c = bgr.at<cv::Vec3f>(y, x);
-            image(x, y) = {c[2], c[1], c[0]};
-        }
-    return image;
 }
 
 bool finite(const Rgb& c) { return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b); }
@@ -69,7 +49,7 @@ bool is_picture_name(const fs::path& file) {
     return false;
 }
 
-Picture read_picture(const fs::path& file) {
+ComparedPicture read_picture(const fs::path& file) {
     require(fs::exists(file), file.string() + ": there is no such file", ExitCode::input_missing);
     require(is_picture_name(file), file.string() +
                                        ": is no picture that can be compared; expected a name that "
@@ -80,7 +60,7 @@ Picture read_picture(const fs::path& file) {
     return from_display(read_color(file));
 }
 
-PictureError picture_error(const Picture& picture, const Picture& reference) {
+PictureError picture_error(const ComparedPicture& picture, const ComparedPicture& reference) {
     PictureError error;
     error.radiance = radiance_error(picture.linear, reference.linear);
     error.display = display_error(picture.display, reference.display,

@@ -11,7 +11,7 @@
 namespace inlay {
 
 /// A picture in both forms; one of them is the file's own, the other follows from it.
-struct Picture {
+struct ComparedPicture {
     Image<Rgb> linear;          // relative radiance; not always finite, as in the file
     Image<EncodedRgb> display;  // values that are not finite are black
 };
@@ -21,7 +21,7 @@ bool is_picture_name(const std::filesystem::path& file);
 
 /// Reads a PNG or JPEG (8-bit sRGB), an OpenEXR (R, G, B or Y) or a Radiance HDR file (linear).
 /// Throws Error: input_missing, or bad_data for files of another kind and damaged ones.
-Picture read_picture(const std::filesystem::path& file);
+ComparedPicture read_picture(const std::filesystem::path& file);
 
 /// How far one picture is from another.
 struct PictureError {
@@ -30,6 +30,6 @@ struct PictureError {
 };
 
 /// Throws Error (bad_data) when sizes differ or no pixel is finite in both.
-PictureError picture_error(const Picture& picture, const Picture& reference);
+PictureError picture_error(const ComparedPicture& picture, const ComparedPicture& reference);
 
 }  // namespace inlay

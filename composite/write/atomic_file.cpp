@@ -78,6 +78,10 @@ void write_file(const fs::path& target, std::span<const std::byte> bytes) {
     pending.commit();
 }
 
+void write_text(const fs::path& target, const std::string& text) {
+    write_file(target, std::as_bytes(std::span(text)));
+}
+
 void make_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 
 namespace inlay {
 
@@ -32,6 +33,9 @@ private:
 /// cannot_create when the folder is missing or not writable, disk_fault when the disk is full or
 /// fails. (A process under a file size limit must ignore SIGXFSZ to get the error.)
 void write_file(const std::filesystem::path& target, std::span<const std::byte> bytes);
+
+/// write_file() of the bytes of a text.
+void write_text(const std::filesystem::path& target, const std::string& text);
 
 /// Makes a folder and its parents, unless they exist. Throws Error (cannot_create, disk_fault).
 void make_folder(const std::filesystem::path& folder);

@@ -26,12 +26,6 @@ constexpr StatusName status_names[] = {{TrackingStatus::tracked, "tracked"},
                                        {TrackingStatus::weak, "weak"},
                                        {TrackingStatus::lost, "lost"}};
 
-const char* name_of(TrackingStatus status) {
-    for (const StatusName& row : status_names)
-        if (row.status == status) return row.name;
-    return "";
-}
-
 TrackingStatus status_from(const std::string& name, const std::string& place) {
     for (const StatusName& row : status_names)
         if (name == row.name) return row.status;
@@ -99,6 +93,12 @@ void write_at_end(const Descriptor& out, const std::string& line, const fs::path
 
 }  // namespace
 
+const char* name_of(TrackingStatus status) {
+    for (const StatusName& row : status_names)
+        if (row.status == status) return row.name;
+    return "";
+}
+
 std::string to_json_line(const FrameReport& r) {
     const Json json{{"frame", r.frame},
                     {"time_s", r.time},
@@ -123,6 +123,8 @@ std::string to_json_line(const FrameReport& r) {
                      {{"virtual", r.pixels.virtual_},
                       {"influenced", r.pixels.influenced},
                       {"skipped", r.pixels.skipped}}},
+                    {"dropped_samples", r.dropped_samples},
+                    {"replaced_pixels", r.replaced_pixels},
                     {"plan", r.plan}};
     return json.dump();
 }
@@ -149,6 +151,8 @@ FrameReport from_json_line(const std::string& line, const std::string& place) {
                   count(rays, "real_indirect")};
         r.pixels = {count(pixels, "virtual"), count(pixels, "influenced"),
                     count(pixels, "skipped")};
+        r.dropped_samples = count(json, "dropped_samples");
+        r.replaced_pixels = count(json, "replaced_pixels");
         r.plan = json.at("plan").get<std::vector<std::string>>();
         return r;
     } catch (const nlohmann::json::exception& e) {

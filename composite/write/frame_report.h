@@ -23,6 +23,9 @@ struct PixelCounts {
     std::uint64_t skipped = 0;     // no real-geometry ray was traced
 };
 
+/// "tracked", "weak" or "lost", as the files of a run have it.
+const char* name_of(TrackingStatus status);
+
 struct FrameReport {
     int frame = 0;    // the recording's own number
     double time = 0;  // s since the recording's first frame
@@ -31,7 +34,9 @@ struct FrameReport {
     StageTimes ms{};
     RayCounts rays{};
     PixelCounts pixels{};
-    std::vector<std::string> plan{};  // the effects that were simulated
+    std::uint64_t dropped_samples = 0;  // not finite, left out of every mean
+    std::uint64_t replaced_pixels = 0;  // a term was not finite: the photograph stands in
+    std::vector<std::string> plan{};    // the effects that were simulated
 };
 
 /// One line of JSON without its line end; numbers read back to the same bits.

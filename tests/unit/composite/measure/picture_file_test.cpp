@@ -28,7 +28,7 @@ Image<EncodedRgb> ramp() {
 TEST(PictureFile, PngIsDisplayAndLinearFollows) {
     const TemporaryFolder folder;
     write_png(folder / "a.png", ramp());
-    const Picture picture = read_picture(folder / "a.png");
+    const ComparedPicture picture = read_picture(folder / "a.png");
     EXPECT_EQ(picture.display.pixels, ramp().pixels);
     EXPECT_EQ(picture.linear.pixels, decode(ramp()).pixels);
 }
@@ -38,7 +38,7 @@ TEST(PictureFile, ExrIsLinearAndDisplayFollows) {
     const Image<Rgb> linear = decode(ramp());
     write_exr(folder / "a.exr",
               {.picture = &linear, .picture_precision = ExrPrecision::full_float});
-    const Picture picture = read_picture(folder / "a.exr");
+    const ComparedPicture picture = read_picture(folder / "a.exr");
     EXPECT_EQ(picture.linear.pixels, linear.pixels);
     EXPECT_EQ(picture.display.pixels, ramp().pixels);
     write_png(folder / "a.png", ramp());
@@ -49,7 +49,7 @@ TEST(PictureFile, HdrKeepsRedFirstAndMoreThanOne) {
     const TemporaryFolder folder;
     const cv::Mat bgr(9, 12, CV_32FC3, cv::Scalar(0.25, 1, 8));
     ASSERT_TRUE(cv::imwrite((folder / "a.hdr").string(), bgr));
-    const Picture picture = read_picture(folder / "a.hdr");
+    const ComparedPicture picture = read_picture(folder / "a.hdr");
     EXPECT_EQ(picture.linear.width, 12);
     // 8 bits of mantissa shared with the largest channel
     EXPECT_NEAR(picture.linear(3, 3).r, 8.0f, 8.0f / 128);
@@ -58,8 +58,8 @@ TEST(PictureFile, HdrKeepsRedFirstAndMoreThanOne) {
 }
 
 TEST(PictureError, LeavesOutPixelsThatAreNotFinite) {
-    Picture a{Image<Rgb>(20, 20, Rgb(0.5f)), encode(Image<Rgb>(20, 20, Rgb(0.5f)))};
-    const Picture b = a;
+    ComparedPicture a{Image<Rgb>(20, 20, Rgb(0.5f)), encode(Image<Rgb>(20, 20, Rgb(0.5f)))};
+    const ComparedPicture b = a;
     a.linear(3, 4).g = std::numeric_limits<float>::quiet_NaN();
     a.display(3, 4) = {0, 0, 0};
     const PictureError error = picture_error(a, b);

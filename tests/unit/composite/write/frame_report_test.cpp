@@ -24,6 +24,8 @@ FrameReport some_report(int frame) {
     r.ms = {1, 2, 3, 4, 5, 6, 7, 28.5};
     r.rays = {10, 20, 30, 40, 5'000'000'000};
     r.pixels = {100, 200, 300};
+    r.dropped_samples = 11;
+    r.replaced_pixels = 12;
     r.plan = {"environment_direct", "environment_indirect"};
     return r;
 }
@@ -33,6 +35,8 @@ TEST(FrameReport, IsTheDocumentedLine) {
     r.frame = 12;
     r.time = 0.5;
     r.pixels = {7, 8, 9};
+    r.dropped_samples = 3;
+    r.replaced_pixels = 4;
     r.plan = {"environment_direct"};
     EXPECT_EQ(to_json_line(r),
               R"({"frame":12,"time_s":0.5,"tracking":"tracked",)"
@@ -43,6 +47,7 @@ TEST(FrameReport, IsTheDocumentedLine) {
               R"("rays":{"primary":0,"virtual_shadow":0,"virtual_indirect":0,)"
               R"("real_shadow":0,"real_indirect":0},)"
               R"("pixels":{"virtual":7,"influenced":8,"skipped":9},)"
+              R"("dropped_samples":3,"replaced_pixels":4,)"
               R"("plan":["environment_direct"]})");
 }
 
@@ -54,6 +59,8 @@ TEST(FrameReport, ReadsBackToTheSameBits) {
     EXPECT_EQ(read.world_from_camera.rotation, written.world_from_camera.rotation);
     EXPECT_EQ(read.world_from_camera.translation, written.world_from_camera.translation);
     EXPECT_EQ(read.rays.real_indirect, 5'000'000'000u);
+    EXPECT_EQ(read.dropped_samples, 11u);
+    EXPECT_EQ(read.replaced_pixels, 12u);
     EXPECT_EQ(to_json_line(read), to_json_line(written));
 }
 
