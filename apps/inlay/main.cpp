@@ -2,6 +2,7 @@
 #include "recordings/base/check.h"
 
 #include "apps/inlay/command.h"
+#include "apps/inlay/invocation.h"
 #include <CLI/CLI.hpp>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
@@ -94,6 +95,7 @@ int main(int argc, char** argv) {
     std::signal(SIGXFSZ,
                 SIG_IGN);  // a file size limit is then an error of the write, as a full disk is
     log_to_stderr();
+    inlay::remember_invocation(argc, argv);
     const int code = guarded_run(argc, argv);
     std::cout.flush();
     if (code == 0 && !std::cout) return fail(int(ExitCode::disk_fault), "cannot write to stdout");

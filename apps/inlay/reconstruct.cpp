@@ -1,5 +1,6 @@
 // `inlay reconstruct`: where the camera was in every frame, and the room as a mesh.
 #include "composite/write/atomic_file.h"
+#include "composite/write/frame_report.h"
 #include "recordings/base/check.h"
 #include "recordings/readers/trajectory.h"
 #include "slam/mapping/advance_slam.h"
@@ -18,7 +19,6 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <span>
 
 namespace inlay {
 namespace {
@@ -42,29 +42,21 @@ struct Reconstruction {
     bool interrupted = false;
 };
 
-const char* name_of(TrackingStatus status) {
-    switch (status) {
-        case TrackingStatus::tracked:
-            return "tracked";
-        case TrackingStatus::weak:
-            return "weak";
-        case TrackingStatus::lost:
-            break;
-    }
-    return "lost";
-}
-
+/// A lost frame has a status but no pose: one that was never found is not data.
 void note(Reconstruction& result, const RgbdFrame& frame, const TrackResult& tracking) {
+    const bool lost = tracking.status == TrackingStatus::lost;
     const auto time_ns = std::int64_t(std::llround(frame.time * 1e9));
-    result.trajectory.poses.push_back({time_ns, {tracking.world_from_camera, ""}});
+    if (!lost) result.trajectory.poses.push_back({time_ns, {tracking.world_from_camera, ""}});
     const Json line{{"frame", frame.index},
+                    {"time_s", frame.time},
                     {"status", name_of(tracking.status)},
+                    {"in_poses_txt", !lost},
                     {"inlier_share", tracking.inlier_share},
                     {"rms_residual_m", tracking.rms_residual}};
     result.status_lines += line.dump() + "\n";
     result.tracked += tracking.status == TrackingStatus::tracked;
     result.weak += tracking.status == TrackingStatus::weak;
-    result.lost += tracking.status == TrackingStatus::lost;
+    result.lost += lost;
 }
 
 /// Tracks from the recording's first frame to the last chosen one, and notes the chosen ones.
@@ -90,7 +82,7 @@ Reconstruction reconstruct(const Recording& recording, const FrameList& chosen,
 
 void write_all(const fs::path& folder, const Reconstruction& result) {
     write_tum_trajectory(folder / "poses.txt", result.trajectory);
-    write_file(folder / "status.jsonl", std::as_bytes(std::span(result.status_lines)));
+    write_text(folder / "status.jsonl", result.status_lines);
     write_ply(folder / "mesh.ply", result.mesh);
 }
 
@@ -130,7 +122,10 @@ std::function<int()> add_reconstruct(CLI::App& subcommand) {
     const auto options = std::make_shared<ReconstructOptions>();
     add_recording_options(subcommand, options->recording);
     add_common_options(subcommand, options->common);
-    subcommand.add_option("--out", options->out, "Folder for poses.txt, status.jsonl and mesh.ply")
+    subcommand
+        .add_option("--out", options->out,
+                    "Folder for poses.txt (TUM form; lost frames have no line), status.jsonl (a "
+                    "line for every frame) and mesh.ply")
         ->required();
     subcommand.add_option("--slam", options->slam, "Voxels and iterations: fast or accurate")
         ->check(CLI::IsMember({"fast", "accurate"}))

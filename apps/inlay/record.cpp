@@ -7,6 +7,7 @@
 
 #include "apps/inlay/command.h"
 #include "apps/inlay/frame_list.h"
+#include "apps/inlay/interrupt.h"
 #include "apps/inlay/options.h"
 #include "apps/inlay/progress.h"
 #include "apps/inlay/scene_copy.h"
@@ -16,7 +17,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <span>
 
 namespace inlay {
 namespace {
@@ -55,8 +55,7 @@ Lens lens_of(const View& view, const std::string& size) {
     return scaled(view.lens, width, height);
 }
 
-FilmedScene film_of(const RecordOptions& o, const fs::path& file) {
-    const SceneFile scene = load_scene_file(file, {o.assets.begin(), o.assets.end()});
+FilmedScene film_of(const RecordOptions& o, const fs::path& file, const SceneFile& scene) {
     for (const std::string& warning : scene.warnings)
         spdlog::warn("{}", warning);
     require(scene.view.has_value(), file.string() + ": `record` needs a 'view'");
@@ -100,14 +99,31 @@ void write_record_json(const fs::path& folder, const RecordOptions& o) {
                                       {"sensor_noise", r.sensor_noise},
                                       {"hand_held", !o.still},
                                       {"seed", r.seed}};
-    const std::string text = json.dump(2) + "\n";
-    write_file(folder / "record.json", std::as_bytes(std::span(text)));
+    write_text(folder / "record.json", json.dump(2) + "\n");
+}
+
+/// Returns how many frames were finished; says so where it is not all of them.
+int record_frames(const FilmedScene& film, const RecordOptions& o, int wanted) {
+    catch_interrupts();
+    int finished = 0;
+    {
+        Progress progress("frames", wanted, o.common.quiet);
+        finished = record_scene(film, o.record, o.out,
+                                {[&](int done) { progress.advance_to(done); }, interrupted});
+    }
+    if (finished < wanted)
+        spdlog::warn(
+            "interrupted: {} of {} frames are finished and stay in {}, which is incomplete (it has "
+            "no record.json); run the same command again to make it whole",
+            finished, wanted, o.out);
+    return finished;
 }
 
 int run(RecordOptions& o) {
     apply(o.common);
     const fs::path file = scene_path(o.scene);
-    const FilmedScene film = film_of(o, file);
+    const SceneFile scene = load_scene_file(file, {o.assets.begin(), o.assets.end()});
+    const FilmedScene film = film_of(o, file, scene);
     o.record.seed = o.common.seed;
     o.record.sensor_noise = !o.no_noise;
     o.record.truth_frames = frames_of(o.truth, o.record.frames);
@@ -118,9 +134,9 @@ int run(RecordOptions& o) {
             folder.string() + ": holds a recording already; choose another --out",
             ExitCode::cannot_create);
     make_folder(folder);
-    copy_scene(file, film.environment, folder);
-    Progress progress("frames", o.record.frames, o.common.quiet);
-    record_scene(film, o.record, folder, [&](int done) { progress.advance_to(done); });
+    copy_scene(file, scene, film.environment, folder);
+    const int wanted = wanted_frames(o.record);
+    if (record_frames(film, o, wanted) < wanted) return int(ExitCode::interrupted);
     if (o.record.written_frames.empty()) write_record_json(folder, o);
     return 0;
 }

@@ -9,6 +9,7 @@
 #include "render/scene/scene_file.h"
 
 #include "apps/inlay/command.h"
+#include "apps/inlay/interrupt.h"
 #include "apps/inlay/render_options.h"
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -66,16 +67,18 @@ void print_totals(const RenderCommandOptions& o, const OutputFrame& out) {
     if (o.common.json) {
         const nlohmann::ordered_json json{{"out", o.out},
                                           {"rays", rays},
-                                          {"dropped_samples", out.noisy->dropped_samples},
+                                          {"dropped_samples", out.dropped_samples},
+                                          {"replaced_pixels", out.composite.replaced_pixels},
                                           {"ms",
                                            {{"trace", out.ms.trace},
                                             {"filter", out.ms.filter},
                                             {"composite", out.ms.composite}}}};
         std::cout << json.dump(2) << "\n";
-    } else {
-        spdlog::info("{}: trace {:.0f} ms, filter {:.0f} ms, {} rays", o.out, out.ms.trace,
-                     out.ms.filter, rays);
+        return;
     }
+    spdlog::info("{}: trace {:.0f} ms, filter {:.0f} ms, {} rays", o.out, out.ms.trace,
+                 out.ms.filter, rays);
+    warn_of_non_finite(out.dropped_samples, out.composite.replaced_pixels);
 }
 
 int run(const RenderCommandOptions& o) {
@@ -104,7 +107,8 @@ int run(const RenderCommandOptions& o) {
         std::cout << explain(plan_effects(facts_of_view(view), settings.filter));
         return 0;
     }
-    const OutputFrame out = render_view(view, settings, o.photo_samples);
+    catch_interrupts();
+    const OutputFrame out = render_view(view, settings, o.photo_samples, interrupted);
     write_result(o, out, layers);
     print_totals(o, out);
     return 0;

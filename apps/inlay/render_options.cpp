@@ -1,6 +1,7 @@
 #include "apps/inlay/render_options.h"
 
 #include <CLI/CLI.hpp>
+#include <spdlog/spdlog.h>
 
 #include <iostream>
 
@@ -54,6 +55,13 @@ Settings settings_from(const RenderOptions& o, const CommonOptions& common, Sett
         apply_setting(settings, assignment);
     validate(settings);
     return settings;
+}
+
+void warn_of_non_finite(std::uint64_t dropped_samples, std::uint64_t replaced_pixels) {
+    if (dropped_samples > 0)
+        spdlog::warn("{} samples were not finite and were left out", dropped_samples);
+    if (replaced_pixels > 0)
+        spdlog::warn("{} pixels were not finite and show the photograph", replaced_pixels);
 }
 
 void print_settings(const Settings& settings) {

@@ -6,6 +6,7 @@
 #include "apps/inlay/options.h"
 #include <CLI/App.hpp>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,9 @@ void add_render_options(CLI::App& subcommand, RenderOptions& options);
 /// (usage).
 Settings settings_from(const RenderOptions& options, const CommonOptions& common,
                        Settings settings = {});
+
+/// Warns, unless both are 0, of samples and pixels that were not finite.
+void warn_of_non_finite(std::uint64_t dropped_samples, std::uint64_t replaced_pixels);
 
 /// name=value, one a line, with units as comments.
 void print_settings(const Settings& settings);

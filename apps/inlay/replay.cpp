@@ -8,6 +8,7 @@
 #include "apps/inlay/frame_list.h"
 #include "apps/inlay/frame_selection.h"
 #include "apps/inlay/interrupt.h"
+#include "apps/inlay/invocation.h"
 #include "apps/inlay/progress.h"
 #include "apps/inlay/render_options.h"
 #include "apps/inlay/replay_output.h"
@@ -15,6 +16,7 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -34,7 +36,7 @@ struct ReplayOptions {
 /// What a run adds up to, for --json and the closing line.
 struct Totals {
     int frames = 0, lost = 0;
-    std::uint64_t pixels = 0, influenced = 0, dropped = 0;
+    std::uint64_t pixels = 0, influenced = 0, dropped = 0, replaced = 0;
     StageTimes ms;  // sums
 
     void add(const FrameReport& report, const OutputFrame& out) {
@@ -42,9 +44,11 @@ struct Totals {
         lost += report.tracking == TrackingStatus::lost;
         pixels += out.composite.linear.pixels.size();
         influenced += report.pixels.influenced;
-        dropped += out.noisy ? out.noisy->dropped_samples : 0;
+        dropped += report.dropped_samples;
+        replaced += report.replaced_pixels;
         ms.load += report.ms.load;
         ms.slam += report.ms.slam;
+        ms.plan += report.ms.plan;
         ms.trace += report.ms.trace;
         ms.filter += report.ms.filter;
         ms.composite += report.ms.composite;
@@ -80,9 +84,11 @@ void print_totals(const ReplayOptions& o, const Totals& t) {
                                           {"lost", t.lost},
                                           {"unchanged_share", unchanged},
                                           {"dropped_samples", t.dropped},
+                                          {"replaced_pixels", t.replaced},
                                           {"mean_ms",
                                            {{"load", t.ms.load / n},
                                             {"slam", t.ms.slam / n},
+                                            {"plan", t.ms.plan / n},
                                             {"trace", t.ms.trace / n},
                                             {"filter", t.ms.filter / n},
                                             {"composite", t.ms.composite / n},
@@ -92,11 +98,11 @@ void print_totals(const ReplayOptions& o, const Totals& t) {
         return;
     }
     spdlog::info(
-        "{} frames in {}, {} with tracking lost; {:.1f} % of the bytes are the recorded "
+        "{} frames in {}, {} with tracking lost; {:.1f} % of the pixels are the recorded "
         "ones; {:.0f} ms a frame (slam {:.0f}, trace {:.0f}, filter {:.0f})",
         t.frames, o.out, t.lost, 100 * unchanged, t.ms.total / n, t.ms.slam / n, t.ms.trace / n,
         t.ms.filter / n);
-    if (t.dropped > 0) spdlog::warn("{} samples were not finite and were left out", t.dropped);
+    warn_of_non_finite(t.dropped, t.replaced);
 }
 
 /// Composites what is not finished yet. Returns false if it was interrupted.
@@ -115,7 +121,7 @@ bool play(Session& session, const Recording& recording, const std::vector<int>& 
         const RgbdFrame frame = recording.load(tasks[i].frame);
         const double load_ms = watch.lap();
         const OutputFrame out = advance(session, frame, tasks[i].work);
-        if (out.tracking.status == TrackingStatus::lost)
+        if (out.tracking.status == TrackingStatus::lost && !session.settings.use_recorded_poses)
             spdlog::warn("frame {}: tracking is lost", frame.index);
         if (tasks[i].work == FrameWork::compose)
             totals.add(write_frame(output, frame, out, load_ms), out);
@@ -129,7 +135,27 @@ double rate_of(const RecordingInfo& info) {
     return duration > 0 ? double(info.times.size() - 1) / duration : 30.0;
 }
 
-int run(const ReplayOptions& o, const std::string& command) {
+/// Frames that are shown as they were recorded, since it is not known from where.
+void warn_of_missing_poses(const RecordingInfo& info, const std::vector<int>& shown) {
+    std::size_t missing = 0;
+    for (std::size_t i = 0; i < info.frames.size(); ++i)
+        missing += !info.world_from_camera[i] &&
+                   std::binary_search(shown.begin(), shown.end(), info.frames[i]);
+    if (missing > 0)
+        spdlog::warn(
+            "{} of {} frames have no usable recorded pose: they are lost, and the photograph alone "
+            "is shown; leave out --poses recorded to track them",
+            missing, shown.size());
+}
+
+RunDescription description_of(const ReplayOptions& o, const SceneFile& scene,
+                              const Settings& settings, const EffectPlan& plan) {
+    return {invocation(), o.common.frames, o.shard,  o.render.assets,
+            o.scene,      scene.files,     settings, parse_layers(o.render.layers),
+            plan};
+}
+
+int run(const ReplayOptions& o) {
     apply(o.common);
     const Settings settings = settings_of(o);
     if (o.render.print_settings) {
@@ -140,12 +166,13 @@ int run(const ReplayOptions& o, const std::string& command) {
             ExitCode::usage);
     require(o.explain || !o.out.empty(), "replay: --out is missing: the folder to write",
             ExitCode::usage);
-    const std::vector<std::string> layers = parse_layers(o.render.layers);
+    parse_layers(o.render.layers);  // a wrong name is told before long work
     const Recording recording = open_and_note(o.recording, o.common);
     const std::vector<int> frames =
         shard_of(select_frames(parse_frames(o.common.frames), recording.info.frames), o.shard);
     const SceneFile file =
         load_scene_file(o.scene, {o.render.assets.begin(), o.render.assets.end()});
+    if (settings.use_recorded_poses) warn_of_missing_poses(recording.info, frames);
     PreparedScene prepared = prepare_scene(file, recording, settings);
     for (const std::string& warning : prepared.warnings)
         spdlog::warn("{}", warning);
@@ -158,7 +185,7 @@ int run(const ReplayOptions& o, const std::string& command) {
     }
     catch_interrupts();
     ReplayOutput output =
-        open_output(o.out, recording.info, {command, o.scene, settings, layers, plan}, o.resume);
+        open_output(o.out, recording.info, description_of(o, file, settings, plan), o.resume);
     Totals totals;
     if (!play(session, recording, frames, output, o, totals)) {
         spdlog::warn("interrupted; finished frames stay, go on with --resume");
@@ -181,18 +208,23 @@ std::function<int()> add_replay(CLI::App& subcommand) {
     subcommand.add_option("--slam", o->slam, "voxels and iterations: fast or accurate")
         ->check(CLI::IsMember({"fast", "accurate"}))
         ->capture_default_str();
-    subcommand.add_option("--poses", o->poses, "tracked (default) or recorded")
+    subcommand
+        .add_option("--poses", o->poses,
+                    "tracked (default), or recorded: a frame without a usable recorded pose is "
+                    "lost, and shows the photograph alone")
         ->check(CLI::IsMember({"tracked", "recorded"}));
     subcommand
         .add_option("--geometry", o->geometry,
-                    "real geometry: screen (this frame's surface map) or model (the fused mesh)")
+                    "what rays meet of the real scene: screen|map|model: this frame's surface "
+                    "map marched in the image, the same as triangles, or the fused model as "
+                    "triangles (default)")
         ->check(CLI::IsMember({"screen", "map", "model"}));
     subcommand.add_option("--video", o->video, "also make a video, as FILE.mp4");
     subcommand.add_option("--shard", o->shard, "I/N: only the I-th of N runs of frames");
     subcommand.add_flag("--resume", o->resume, "go on with the run that the folder holds");
     subcommand.add_flag("--explain", o->explain,
                         "print which effects are simulated and why, and stop");
-    return [o] { return run(*o, "replay"); };
+    return [o] { return run(*o); };
 }
 
 }  // namespace inlay

@@ -4,6 +4,8 @@
 #include "composite/session/session.h"
 #include "recordings/readers/recording.h"
 
+#include "apps/inlay/run_file.h"
+
 #include <filesystem>
 #include <set>
 #include <string>
@@ -15,15 +17,6 @@ struct ReplayOutput {
     std::filesystem::path folder;
     std::vector<std::string> layers;  // of the EXR files
     std::set<int> finished;           // frames that are there already
-};
-
-/// What makes two runs the same: written to run.json, and compared when a run is resumed.
-struct RunDescription {
-    std::string command;
-    std::filesystem::path scene;
-    Settings settings;
-    std::vector<std::string> layers;
-    EffectPlan plan;
 };
 
 /// Makes the folder and writes run.json. A folder that holds a run already is refused

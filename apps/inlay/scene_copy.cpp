@@ -1,45 +1,20 @@
 #include "apps/inlay/scene_copy.h"
 
 #include "composite/write/atomic_file.h"
+#include "recordings/base/check.h"
 
+#include "apps/inlay/file_content.h"
 #include <nlohmann/json.hpp>
 
-#include <fstream>
-#include <iterator>
-#include <set>
-#include <span>
+#include <map>
 #include <string>
+#include <variant>
 
 namespace inlay {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-std::string content_of(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-bool names_other_files(const fs::path& file) {
-    const std::string extension = file.extension().string();
-    return extension == ".obj" || extension == ".mtl" || extension == ".gltf";
-}
-
-/// Copies a file, and those of its folder whose names occur in it, and so on.
-void copy_with_references(const fs::path& from_folder, const fs::path& name,
-                          const fs::path& to_folder, std::set<fs::path>& copied) {
-    if (!copied.insert(name).second) return;
-    const std::string content = content_of(from_folder / name);
-    make_folder((to_folder / name).parent_path());
-    write_file(to_folder / name, std::as_bytes(std::span(content)));
-    if (!names_other_files(name)) return;
-    for (const auto& entry : fs::directory_iterator((from_folder / name).parent_path())) {
-        const fs::path other = entry.path().filename();
-        if (entry.is_regular_file() && content.find(other.string()) != std::string::npos)
-            copy_with_references(from_folder, name.parent_path() / other, to_folder, copied);
-    }
-}
 
 Json environment_json(const EnvironmentMap& environment) {
     Json rotation = Json::array();
@@ -49,25 +24,41 @@ Json environment_json(const EnvironmentMap& environment) {
     return {{"file", "truth/environment.exr"}, {"world_from_environment", rotation}};
 }
 
+bool is_environment(const AssetFile& asset, const SceneFile& scene) {
+    const auto* file = std::get_if<fs::path>(&scene.environment.source);
+    return file && *file == asset.file;
+}
+
+/// The source of each place in the copy.
+std::map<fs::path, fs::path> places(const SceneFile& scene) {
+    std::map<fs::path, fs::path> sources;
+    for (const AssetFile& asset : scene.files) {
+        if (is_environment(asset, scene)) continue;
+        require(!asset.place.is_absolute() && *asset.place.begin() != "..",
+                asset.file.string() +
+                    ": is not referred to by a name beside or below what names it, so that a copy "
+                    "of the scene could not find it; put it there",
+                ExitCode::usage);
+        const auto [place, fresh] = sources.emplace(asset.place, asset.file);
+        require(fresh || place->second == asset.file,
+                asset.file.string() + " and " + place->second.string() + " would both be " +
+                    asset.place.string() + " in a copy of the scene; rename one of them",
+                ExitCode::usage);
+    }
+    return sources;
+}
+
 }  // namespace
 
-void copy_scene(const fs::path& scene_file, const EnvironmentMap& environment,
-                const fs::path& target_folder) {
-    const fs::path folder = scene_file.parent_path();
-    Json scene = Json::parse(content_of(scene_file));
-    scene["environment"] = environment_json(environment);
-    std::set<fs::path> copied;
-    for (const Json& object : scene["objects"]) {
-        const auto copy = [&](const std::string& name) {
-            if (fs::exists(folder / name))
-                copy_with_references(folder, name, target_folder, copied);
-        };
-        if (object.contains("mesh")) copy(object["mesh"]);
-        if (object.contains("material") && object["material"].contains("texture"))
-            copy(object["material"]["texture"]);
+void copy_scene(const fs::path& scene_file, const SceneFile& scene,
+                const EnvironmentMap& environment, const fs::path& target_folder) {
+    for (const auto& [place, source] : places(scene)) {
+        make_folder((target_folder / place).parent_path());
+        write_text(target_folder / place, content_of(source));
     }
-    const std::string text = scene.dump(1) + "\n";
-    write_file(target_folder / "scene.json", std::as_bytes(std::span(text)));
+    Json copy = Json::parse(content_of(scene_file));
+    copy["environment"] = environment_json(environment);
+    write_text(target_folder / "scene.json", copy.dump(1) + "\n");
 }
 
 }  // namespace inlay

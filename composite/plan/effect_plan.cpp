@@ -14,7 +14,7 @@ struct EffectRule {
 
 bool visible(const SceneFacts& f) { return f.objects > 0 && f.tracked; }
 
-/// A new effect adds a row.
+/// A new effect adds a row here, and its work asks EffectPlan::has() for it.
 const EffectRule rules[] = {
     {"environment_direct",
      [](const SceneFacts& f, const FilterSettings&) { return visible(f) && f.lit; },
@@ -22,8 +22,6 @@ const EffectRule rules[] = {
      "no virtual object, no light, or tracking lost"},
     {"environment_indirect", [](const SceneFacts& f, const FilterSettings&) { return visible(f); },
      "virtual and real surfaces light each other", "no virtual object, or tracking lost"},
-    {"glossy", [](const SceneFacts& f, const FilterSettings&) { return visible(f) && f.glossy; },
-     "a virtual material has a glossy lobe", "no virtual material is glossy"},
     {"axis_aligned_filter",
      [](const SceneFacts& f, const FilterSettings& s) { return visible(f) && s.enabled; },
      "irradiances are noisy", "nothing to filter, or --filter off"},
@@ -45,8 +43,6 @@ SceneFacts gather_facts(const VirtualScene& scene, bool lit, double time, double
         ++facts.objects;
         facts.moving =
             facts.moving || transform_at(object, time) != transform_at(object, time_before);
-        for (const ObjectPart& part : object.parts)
-            facts.glossy = facts.glossy || !std::holds_alternative<Diffuse>(part.material);
     }
     return facts;
 }

@@ -12,7 +12,6 @@ namespace inlay {
 /// What the rules look at.
 struct SceneFacts {
     int objects = 0;           // virtual ones
-    bool glossy = false;       // one of them has a glossy lobe
     bool moving = false;       // one of them has moved since the frame before
     bool lit = false;          // the environment sends light
     bool tracked = true;       // the camera's pose is known

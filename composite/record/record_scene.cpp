@@ -11,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <span>
 #include <string>
 
 namespace inlay {
@@ -24,10 +23,6 @@ constexpr std::uint32_t truth_seed_offset = 0x5eed;
 
 double time_of(const RecordSettings& settings, int frame) {
     return frame / settings.frames_per_second;
-}
-
-void write_text(const fs::path& file, const std::string& text) {
-    write_file(file, std::as_bytes(std::span(text)));
 }
 
 Image<std::uint16_t> stored_depth(const Image<float>& depth, double units_per_metre) {
@@ -78,24 +73,47 @@ void write_picture(const fs::path& folder, const std::string& stem, const Pictur
     write_exr(folder / (stem + ".stderr.exr"), exr);
 }
 
-void write_truth(const fs::path& truth, const FilmedScene& film, const RecordSettings& settings,
-                 int frame) {
+bool stopped(const RecordWatch& watch) { return watch.asked_to_stop && watch.asked_to_stop(); }
+
+/// False where it was asked to stop before the last of its three files.
+bool write_truth(const fs::path& truth, FilmSet& set, const RecordSettings& settings, int frame,
+                 const RecordWatch& watch) {
+    const FilmedScene& film = set.film;
     const double t = time_of(settings, frame);
     const std::string stem = fmt::format("{:06d}", frame);
     const PictureView view{film.lens, film.camera(t), settings.seed + truth_seed_offset,
                            std::uint32_t(frame)};
-    const EnvironmentSampler environment = make_environment_sampler(film.environment);
-    EmbreeSceneCache structures;
-    const EmbreeScene real = structures.place(film.scene, t, true);
-    const EmbreeScene all = structures.place(film.scene, t);
-    write_picture(truth / "recorded", stem,
-                  trace_picture(real, environment, view, settings.truth_samples));
-    write_picture(truth / "composite", stem,
-                  trace_picture(all, environment, view, settings.truth_samples));
+    const auto trace = [&](const EmbreeScene& objects, const char* kind) {
+        if (stopped(watch)) return false;
+        write_picture(truth / kind, stem,
+                      trace_picture(objects, set.environment, view, settings.truth_samples));
+        return true;
+    };
+    const EmbreeScene real = set.structures.place(film.scene, t, true);
+    if (!trace(real, "recorded") || !trace(set.structures.place(film.scene, t), "composite"))
+        return false;
     const Image<float> depth = trace_depth(real, film.lens, view.world_from_camera);
     ExrFile exr;
     exr.layers.push_back(value_layer("Z", depth));
     write_exr(truth / "depth" / (stem + ".exr"), exr);
+    return true;
+}
+
+void write_frame(const fs::path& folder, const RecordedFrame& recorded, int frame) {
+    const std::string name = fmt::format("{:06d}.png", frame);
+    write_png(folder / "rgb" / name, recorded.color);
+    write_png(folder / "depth" / name, recorded.depth);
+}
+
+void write_environment(const fs::path& truth, const EnvironmentMap& map) {
+    ExrFile environment;
+    environment.picture = &map.radiance;
+    environment.picture_precision = ExrPrecision::full_float;
+    write_exr(truth / "environment.exr", environment);
+}
+
+bool wanted(const RecordSettings& settings, int frame) {
+    return settings.written_frames.empty() || settings.written_frames.contains(frame);
 }
 
 }  // namespace
@@ -110,13 +128,23 @@ void validate(const RecordSettings& s) {
                 ExitCode::usage);
 }
 
-RecordedFrame film_frame(const FilmedScene& film, const RecordSettings& settings, int frame) {
+int wanted_frames(const RecordSettings& settings) {
+    int count = 0;
+    for (int i = 0; i < settings.frames; ++i)
+        count += wanted(settings, i);
+    return count;
+}
+
+FilmSet prepare_film(const FilmedScene& film) {
+    return {film, make_environment_sampler(film.environment), {}};
+}
+
+RecordedFrame film_frame(FilmSet& set, const RecordSettings& settings, int frame) {
+    const FilmedScene& film = set.film;
     const double t = time_of(settings, frame);
     const PictureView view{film.lens, film.camera(t), settings.seed, std::uint32_t(frame)};
-    EmbreeSceneCache structures;
-    const EmbreeScene real = structures.place(film.scene, t, true);
-    const Picture picture =
-        trace_picture(real, make_environment_sampler(film.environment), view, settings.samples);
+    const EmbreeScene real = set.structures.place(film.scene, t, true);
+    const Picture picture = trace_picture(real, set.environment, view, settings.samples);
     RecordedFrame recorded;
     recorded.color = encode(picture.radiance);
     recorded.exact_depth = trace_depth(real, film.lens, view.world_from_camera);
@@ -129,26 +157,28 @@ RecordedFrame film_frame(const FilmedScene& film, const RecordSettings& settings
     return recorded;
 }
 
-void record_scene(const FilmedScene& film, const RecordSettings& settings, const fs::path& folder,
-                  const std::function<void(int)>& frame_done) {
+int record_scene(const FilmedScene& film, const RecordSettings& settings, const fs::path& folder,
+                 const RecordWatch& watch) {
     validate(settings);
     for (const char* sub : {"rgb", "depth", "truth/recorded", "truth/composite", "truth/depth"})
         make_folder(folder / sub);
     write_lists(folder, settings);
     write_poses(folder, film, settings);
     write_camera(folder, film, settings);
-    ExrFile environment;
-    environment.picture = &film.environment.radiance;
-    environment.picture_precision = ExrPrecision::full_float;
-    write_exr(folder / "truth" / "environment.exr", environment);
+    write_environment(folder / "truth", film.environment);
+    FilmSet set = prepare_film(film);
+    int finished = 0;
     for (int i = 0; i < settings.frames; ++i) {
-        if (!settings.written_frames.empty() && !settings.written_frames.contains(i)) continue;
-        const RecordedFrame frame = film_frame(film, settings, i);
-        write_png(folder / "rgb" / fmt::format("{:06d}.png", i), frame.color);
-        write_png(folder / "depth" / fmt::format("{:06d}.png", i), frame.depth);
-        if (settings.truth_frames.contains(i)) write_truth(folder / "truth", film, settings, i);
-        frame_done(i + 1);
+        if (!wanted(settings, i)) continue;
+        if (stopped(watch)) break;
+        write_frame(folder, film_frame(set, settings, i), i);
+        if (settings.truth_frames.contains(i) &&
+            !write_truth(folder / "truth", set, settings, i, watch))
+            break;
+        ++finished;
+        if (watch.frame_done) watch.frame_done(finished);
     }
+    return finished;
 }
 
 }  // namespace inlay

@@ -6,7 +6,9 @@
 #include "recordings/base/pose.h"
 #include "recordings/synthetic/camera_path.h"
 #include "recordings/synthetic/sensor_noise.h"
+#include "render/sample/environment_sampler.h"
 #include "render/scene/virtual_scene.h"
+#include "render/trace/embree_scene.h"
 
 #include <filesystem>
 #include <functional>
@@ -40,12 +42,31 @@ struct RecordSettings {
 /// Throws Error (usage) for counts that are not positive or truth frames outside the recording.
 void validate(const RecordSettings& settings);
 
+/// What the caller of a long recording wants to know and to say. Both may be empty.
+struct RecordWatch {
+    std::function<void(int finished)> frame_done;  // after each frame, with the number of finished
+    std::function<bool()> asked_to_stop;           // between frames, and between a frame's passes
+};
+
 /// Writes frames, lists, camera.json and truth/ in the layout of a TUM RGB-D folder; record.json,
-/// which marks the folder as complete, is left to the caller. `frame_done` is called after each
-/// frame. Numbers of a frame depend on (settings.seed, frame) alone, so that any frame can be made
-/// again by itself.
-void record_scene(const FilmedScene& film, const RecordSettings& settings,
-                  const std::filesystem::path& folder, const std::function<void(int)>& frame_done);
+/// which marks the folder as complete, is left to the caller. Numbers of a frame depend on
+/// (settings.seed, frame) alone, so that any frame can be made again by itself. Returns how many
+/// frames were finished with their truth: all that were wanted, unless asked to stop.
+int record_scene(const FilmedScene& film, const RecordSettings& settings,
+                 const std::filesystem::path& folder, const RecordWatch& watch = {});
+
+/// How many frames record_scene() is to write.
+int wanted_frames(const RecordSettings& settings);
+
+/// What is the same for all frames of a film: tables of the environment, and one acceleration
+/// structure for each mesh. `film` must outlive it.
+struct FilmSet {
+    const FilmedScene& film;
+    EnvironmentSampler environment;
+    EmbreeSceneCache structures;
+};
+
+FilmSet prepare_film(const FilmedScene& film);
 
 /// One frame as the sensor stores it.
 struct RecordedFrame {
@@ -54,6 +75,7 @@ struct RecordedFrame {
     Image<float> exact_depth;    // m
 };
 
-RecordedFrame film_frame(const FilmedScene& film, const RecordSettings& settings, int frame);
+/// The set keeps the structures of the meshes that it meets first.
+RecordedFrame film_frame(FilmSet& set, const RecordSettings& settings, int frame);
 
 }  // namespace inlay

@@ -6,7 +6,7 @@
 #include "render/scene/place_object.h"
 
 #include <algorithm>
-#include <functional>
+#include <optional>
 
 namespace inlay {
 namespace {
@@ -26,22 +26,26 @@ SurfaceMap surface_of_frame(const Recording& recording, const Settings& settings
     }
     require(step.tracking.status != TrackingStatus::lost,
             "scene: an object is placed in frame " + std::to_string(number) +
-                ", but tracking is lost there; name another frame");
+                ", but no pose is known there; name another frame");
     return std::move(step.surface);
 }
 
-glm::dvec3 up_of(const RecordingInfo& info, const std::function<SurfaceMap(int)>& surface_of,
-                 std::vector<std::string>& warnings) {
-    if (info.up) return *info.up;
-    const SurfaceMap first = surface_of(info.frames.front());
+/// The first frame whose pose will be known; with recorded poses there may be none.
+std::optional<int> anchor_frame(const RecordingInfo& info, const Settings& settings) {
+    if (!settings.use_recorded_poses) return info.frames.front();
+    for (std::size_t i = 0; i < info.frames.size(); ++i)
+        if (info.world_from_camera[i]) return info.frames[i];
+    return std::nullopt;
+}
+
+/// `first` is the view of the anchor frame, numbered `number`.
+glm::dvec3 up_of(const SurfaceMap& first, int number, std::vector<std::string>& warnings) {
+    const std::string unknown = "the recording does not say where up is";
     if (const auto measured = measure_up(first)) {
-        warnings.push_back(
-            "the recording does not say where up is: measured from a plane of frame " +
-            std::to_string(info.frames.front()));
+        warnings.push_back(unknown + ": measured from a plane of frame " + std::to_string(number));
         return *measured;
     }
-    warnings.push_back(
-        "the recording does not say where up is, and no plane tells: the first camera's is taken");
+    warnings.push_back(unknown + ", and no plane tells: the first camera's is taken");
     return first.world_from_camera.rotation * glm::dvec3(0, -1, 0);
 }
 
@@ -59,10 +63,16 @@ PreparedScene prepare_scene(const SceneFile& file, const Recording& recording,
     };
     PreparedScene prepared;
     prepared.warnings = file.warnings;
-    prepared.up = up_of(recording.info, surface_of, prepared.warnings);
+    const std::optional<int> first = anchor_frame(recording.info, settings);
+    Pose anchor;
+    if (first) anchor = recording.load(*first).recorded_world_from_camera.value_or(Pose{});
+    prepared.up = anchor.rotation * glm::dvec3(0, -1, 0);
+    if (recording.info.up) {
+        prepared.up = *recording.info.up;
+    } else if (first) {
+        prepared.up = up_of(surface_of(*first), *first, prepared.warnings);
+    }
     prepared.scene = resolve_placements(file, surface_of, prepared.up);
-    const RgbdFrame first = recording.load(recording.info.frames.front());
-    const Pose anchor = first.recorded_world_from_camera.value_or(Pose{});
     LoadedEnvironment environment =
         load_environment(file.environment, prepared.up, anchor.rotation[2]);
     if (environment.replaced_texels > 0)

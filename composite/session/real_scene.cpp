@@ -35,7 +35,7 @@ void march_in_image(RealScene& real, const SlamState& slam, const Settings& sett
             slam.volume, pinhole(lens), real.surface->world_from_camera, settings.slam.raycast));
         real.traced_photo = std::make_shared<const Image<Rgb>>(undistorted(*real.photo, lens));
     }
-    const ScreenTracerSettings& screen = settings.geometry.screen;
+    const ScreenTracerSettings screen = screen_settings(settings.geometry);
     auto pyramid =
         std::make_shared<const DepthPyramid>(make_depth_pyramid(*real.traced_surface, screen));
     real.geometry = screen_real_geometry({*real.traced_surface, *real.traced_photo},
@@ -45,11 +45,21 @@ void march_in_image(RealScene& real, const SlamState& slam, const Settings& sett
     };
 }
 
+/// A lost frame, which teaches the model nothing; its pose is the last one known.
+SlamStep without_pose(const SlamState& slam) {
+    SlamStep step;
+    if (slam.model) step.tracking.world_from_camera = slam.model->world_from_camera;
+    return step;
+}
+
 }  // namespace
 
 SlamStep track_frame_of(SlamState& slam, const RgbdFrame& frame, const Settings& settings) {
     std::optional<Pose> known;
-    if (settings.use_recorded_poses) known = frame.recorded_world_from_camera;
+    if (settings.use_recorded_poses) {
+        if (!frame.recorded_world_from_camera) return without_pose(slam);
+        known = frame.recorded_world_from_camera;
+    }
     SlamStep step = advance_slam(slam, frame, settings.slam, known);
     step.surface.normal = smooth_normals(step.surface);
     return step;

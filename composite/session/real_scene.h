@@ -10,7 +10,8 @@
 
 namespace inlay {
 
-/// Tracks (or takes the recorded pose of) one frame, fuses it and raycasts the model.
+/// Tracks one frame, fuses it and raycasts the model. With recorded poses nothing is tracked, and a
+/// frame that has none is lost: it has no surface and leaves the model as it is.
 SlamStep track_frame_of(SlamState& slam, const RgbdFrame& frame, const Settings& settings);
 
 /// Keeps what its RealGeometry refers to; movable, since all of it lies behind pointers.

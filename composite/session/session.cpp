@@ -1,8 +1,8 @@
 #include "composite/session/session.h"
 
+#include "composite/session/obey_plan.h"
 #include "composite/session/stop_watch.h"
 #include "render/filter/environment_bandwidth.h"
-#include "render/filter/filter_layers.h"
 
 #include <utility>
 
@@ -10,22 +10,17 @@ namespace inlay {
 namespace {
 
 NoisyLayers sample(Session& session, const RealScene& real, const RgbdFrame& frame,
-                   RayCounts& rays) {
+                   OutputFrame& out) {
     const EmbreeScene objects =
         session.virtual_structures.place(session.scene, frame.time, /*real=*/false);
+    const bool lit = out.plan.has("environment_direct");
     const TwoModeScene scene{frame.lens, real.surface->world_from_camera, real.geometry, objects,
-                             session.environment};
+                             lit ? session.environment : session.no_light};
     TwoModeResult result =
         sample_two_modes(scene, session.settings.trace, std::uint32_t(frame.index));
-    rays = result.rays;
+    out.rays = result.rays;
+    out.dropped_samples = result.layers.dropped_samples;
     return std::move(result.layers);
-}
-
-/// Layers that leave the photograph as it is.
-Layers nothing_simulated(const Image<Rgb>& photo) {
-    Layers layers;
-    layers.m = Image<float>(photo.width, photo.height, 1.0f);
-    return layers;
 }
 
 }  // namespace
@@ -35,8 +30,10 @@ Session start_session(const Settings& settings, VirtualScene scene, EnvironmentM
     Session session;
     session.settings = settings;
     session.scene = std::move(scene);
-    session.environment_bandwidth = environment_bandwidth(environment.radiance);
+    if (settings.filter.enabled)
+        session.environment_bandwidth = environment_bandwidth(environment.radiance);
     session.environment = make_environment_sampler(std::move(environment));
+    session.no_light = no_light();
     session.slam = start_slam(settings.slam);
     return session;
 }
@@ -65,18 +62,14 @@ OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work) {
     if (out.plan.has("environment_indirect")) {
         const RealScene real = describe_real_scene(std::move(slam.surface), photo.linear,
                                                    session.slam, session.model, settings);
-        session.previous =
-            std::make_shared<const NoisyLayers>(sample(session, real, frame, out.rays));
+        session.previous = std::make_shared<const NoisyLayers>(sample(session, real, frame, out));
         out.ms.trace = watch.lap();
     }
     if (work == FrameWork::sample) return out;
 
     out.noisy = session.previous;
-    out.layers =
-        out.noisy
-            ? filter_layers(*out.noisy, out.plan.has("temporal_filter") ? previous.get() : nullptr,
-                            session.environment_bandwidth, settings.filter)
-            : nothing_simulated(photo.linear);
+    out.layers = planned_layers(out.plan, {out.noisy.get(), previous.get()}, photo.linear,
+                                session.environment_bandwidth, settings.filter);
     out.ms.filter = watch.lap();
 
     out.composite = composite(photo, out.layers, settings.blend);

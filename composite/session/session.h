@@ -18,7 +18,8 @@ struct Session {
     Settings settings;
     VirtualScene scene;  // objects where they stand, in the recording's world
     EnvironmentSampler environment;
-    double environment_bandwidth = 0;  // B_e, 1/rad
+    EnvironmentSampler no_light;       // in its place where the plan has no direct light
+    double environment_bandwidth = 0;  // B_e, 1/rad; 0 without the filter
 
     SlamState slam;
     TracedModel model;
@@ -44,6 +45,7 @@ struct OutputFrame {
     Layers layers;
     Image<Rgb> camera;  // the photograph, linear
     RayCounts rays;
+    std::uint64_t dropped_samples = 0;  // non-finite ones, left out of every mean
     StageTimes ms;
 };
 

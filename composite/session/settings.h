@@ -22,12 +22,16 @@ enum class RealGeometryKind {
 
 struct GeometrySettings {
     RealGeometryKind kind = RealGeometryKind::model;
-    float offset = 0.01f;                // m, distance from a real surface at which its rays start
+    float offset = 0.01f;                // m, distance from a real surface at which its rays start,
+                                         // for every kind
     float visibility_tolerance = 0.05f;  // m, within which the photograph sees a point of the model
     float max_step = 0.05f;              // share of depth; steeper steps of the map are not joined
     int model_interval = 10;             // frames between two extractions of the model, >= 1
-    ScreenTracerSettings screen;
+    ScreenTracerSettings screen;         // its own offset has no meaning here
 };
+
+/// The settings of RealGeometryKind::screen, with the offset that all kinds share.
+ScreenTracerSettings screen_settings(const GeometrySettings& geometry);
 
 struct Settings {
     SlamSettings slam;

@@ -32,6 +32,19 @@ bool lies_within(const AssetFolders& assets, const fs::path& path) {
     });
 }
 
+void note_opened(const AssetFolders& assets, const AssetFile& opened) {
+    const bool known = std::any_of(
+        assets.opened->begin(), assets.opened->end(),
+        [&](const AssetFile& o) { return o.file == opened.file && o.place == opened.place; });
+    if (!known) assets.opened->push_back(opened);
+}
+
+fs::path place_of(const AssetFolders& assets, const fs::path& file) {
+    const auto found = std::find_if(assets.opened->rbegin(), assets.opened->rend(),
+                                    [&](const AssetFile& o) { return o.file == file; });
+    return found != assets.opened->rend() ? found->place : file.filename();
+}
+
 fs::path find_asset(const AssetFolders& assets, const std::string& name, const std::string& place) {
     const fs::path relative(name);
     const bool climbs = std::find(relative.begin(), relative.end(), "..") != relative.end();
@@ -49,6 +62,7 @@ fs::path find_asset(const AssetFolders& assets, const std::string& name, const s
                 place + ": " + file.string() +
                     " is a link that leads out of the scene's folders; " +
                     "put the file itself there, or add its folder with --assets");
+        note_opened(assets, {fs::canonical(file), (assets.within / relative).lexically_normal()});
         return fs::canonical(file);
     }
     throw Error(ExitCode::input_missing, place + ": no file \"" + name + "\" in" + searched +

@@ -170,7 +170,9 @@ LoadedMesh load_mesh(const fs::path& file, const AssetFolders& assets, MeshMater
             file.string() + ": lies outside the scene's folders; add its folder with --assets");
     require_plausible_counts(file);
     try {
-        return collect(import_mesh(fs::canonical(file), assets, materials), materials);
+        AssetFolders beside = assets;  // the mesh's references have their places beside it
+        beside.within = place_of(assets, fs::canonical(file)).parent_path();
+        return collect(import_mesh(fs::canonical(file), beside, materials), materials);
     } catch (const std::bad_alloc&) {
         throw Error(ExitCode::bad_data, file.string() + ": too large to be held in memory");
     }

@@ -30,8 +30,8 @@ struct FileAccess {
 /// Opens files for reading, and only within the asset folders. assimp asks for a virtual class.
 class JailedFiles : public Assimp::DefaultIOSystem {
 public:
-    JailedFiles(AssetFolders assets, FileAccess& access)
-        : assets_(std::move(assets)), access_(access) {}
+    JailedFiles(AssetFolders assets, fs::path mesh_folder, FileAccess& access)
+        : assets_(std::move(assets)), mesh_folder_(std::move(mesh_folder)), access_(access) {}
 
     bool Exists(const char* file) const override {
         return permitted(file) && Assimp::DefaultIOSystem::Exists(file);
@@ -48,6 +48,7 @@ public:
             return nullptr;
         }
         if (fs::path(file).extension() == ".mtl") access_.opened_material_library = true;
+        note_opened(assets_, {fs::canonical(file), place_of_reference(file)});
         return Assimp::DefaultIOSystem::Open(file, "rb");
     }
 
@@ -57,7 +58,13 @@ private:
                lies_within(assets_, file);
     }
 
+    /// A reference is relative to the mesh, and so is the place of what it names.
+    fs::path place_of_reference(const fs::path& file) const {
+        return (assets_.within / file.lexically_relative(mesh_folder_)).lexically_normal();
+    }
+
     AssetFolders assets_;
+    fs::path mesh_folder_;
     FileAccess& access_;
 };
 
@@ -148,7 +155,7 @@ MeshImport import_mesh(const fs::path& file, const AssetFolders& assets, MeshMat
     MeshImport import{std::make_shared<Assimp::Importer>(), file, assets};
     Assimp::Importer& importer = *import.importer;
     keep_only_our_importers(importer);
-    auto* files = new JailedFiles(assets, access);
+    auto* files = new JailedFiles(assets, file.parent_path(), access);
     importer.SetIOHandler(files);  // the importer owns it
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                                 aiPrimitiveType_POINT | aiPrimitiveType_LINE);

@@ -131,6 +131,7 @@ SceneFile load_scene_file(const fs::path& file, const std::vector<fs::path>& mor
     if (const JsonNode* n = find(document, "objects")) read_objects(scene, *n, assets);
     if (const JsonNode* n = find(document, "view")) scene.view = view_of(*n);
     if (const JsonNode* n = find(document, "path")) scene.path = path_of(*n);
+    scene.files = *assets.opened;
     return scene;
 }
 

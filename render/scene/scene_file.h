@@ -7,6 +7,7 @@
 #include "recordings/base/pose.h"
 #include "recordings/environment/environment_tools.h"
 #include "recordings/synthetic/camera_path.h"
+#include "render/scene/asset_folders.h"
 #include "render/scene/virtual_scene.h"
 
 #include <glm/glm.hpp>
@@ -62,6 +63,7 @@ struct SceneFile {
     std::optional<View> view;
     std::vector<PathKey> path;  // times increase strictly; may be empty
     std::vector<std::string> warnings;
+    std::vector<AssetFile> files;  // all that were opened, the scene file itself excepted
 };
 
 /// Reads a scene description (version 1) with the files it names, which lie beside it or in

@@ -41,7 +41,7 @@ RadiancePacket shade_virtual_hits(SamplePass& pass, const RayPacket& rays, const
             land_on_virtual(pass.scene.virtual_objects, hits[i], rays.origin[i], rays.direction[i]);
         const LightSample sample = light_for_hit(pass, at, pass.keys[i]);
         const float cosine = glm::dot(at.normal, sample.direction);
-        if (!(sample.pdf > 0 && cosine > 0)) continue;
+        if (!(sample.pdf > 0 && cosine > 0) || sample.radiance == Rgb(0)) continue;
         radiance[i] =
             (at.bsdf.diffuse * (cosine / pi) + eval_glossy(at.bsdf, at.frame, sample.direction)) *
             sample.radiance / sample.pdf;

@@ -91,10 +91,11 @@ void check(const SurfaceMap& map) {
 
 void validate(const ScreenTracerSettings& s) {
     require(s.thickness >= 0 && s.thickness_per_depth >= 0 && s.offset >= 0,
-            "screen.thickness, screen.thickness_per_depth and screen.offset must not be negative",
+            "geometry.screen.thickness, geometry.screen.thickness_per_depth and geometry.offset "
+            "must not be negative",
             ExitCode::usage);
     require(s.largest_tilt >= 0 && s.largest_tilt <= 0.5f,
-            "screen.largest_tilt must lie within 0..0.5", ExitCode::usage);
+            "geometry.screen.largest_tilt must lie within 0..0.5", ExitCode::usage);
 }
 
 DepthPyramid make_depth_pyramid(const SurfaceMap& map, const ScreenTracerSettings& settings) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace inlay {
@@ -71,8 +72,11 @@ void add(RayCounts& sum, const RayCounts& more) {
 void validate(const SamplingSettings& s) {
     require(s.primary > 0 && s.secondary > 0, "trace.primary and trace.secondary must be positive",
             ExitCode::usage);
-    for (const float share : {s.depth_tolerance, s.occluder_floor, s.ignored_luminance})
-        require(share >= 0 && share <= 1, "trace: shares must lie within 0..1", ExitCode::usage);
+    for (const auto& [name, share] : {std::pair{"trace.depth_tolerance", s.depth_tolerance},
+                                      std::pair{"trace.occluder_floor", s.occluder_floor},
+                                      std::pair{"trace.ignored_luminance", s.ignored_luminance}})
+        require(share >= 0 && share <= 1, std::string(name) + " must lie within 0..1",
+                ExitCode::usage);
 }
 
 SamplingSettings with_samples(SamplingSettings settings, int samples) {

@@ -89,14 +89,21 @@ void validate(const TrackSettings& s) {
     require(s.levels >= 1 && s.levels <= 6 && s.iterations >= 1,
             "slam.track.levels must be 1..6 and slam.track.iterations 1 or more", ExitCode::usage);
     require(s.fine_distance > 0 && s.coarse_distance >= s.fine_distance,
-            "slam.track.fine_distance must be above 0 and no more than coarse_distance",
+            "slam.track.fine_distance must be above 0 and no more than slam.track.coarse_distance",
             ExitCode::usage);
     require(
         s.largest_angle > 0 && s.largest_angle < 1.6f && s.least_information >= 0,
         "slam.track.largest_angle must be 0..1.6 rad and slam.track.least_information 0 or more",
         ExitCode::usage);
     require(s.weak_share >= 0 && s.weak_share <= s.tracked_share && s.tracked_share <= 1,
-            "slam.track.weak_share must be 0 or more and no more than tracked_share <= 1",
+            "slam.track.weak_share must be 0 or more and no more than slam.track.tracked_share, "
+            "which is 1 at most",
+            ExitCode::usage);
+    require(s.least_overlap >= 0 && s.least_overlap <= 1, "slam.track.least_overlap must be 0..1",
+            ExitCode::usage);
+    require(s.largest_move > 0 && s.largest_turn > 0 && s.largest_residual > 0,
+            "slam.track.largest_move, slam.track.largest_turn and slam.track.largest_residual must "
+            "be above 0",
             ExitCode::usage);
 }
 

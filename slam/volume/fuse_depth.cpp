@@ -121,8 +121,10 @@ void validate(const FusionSettings& s) {
             "slam.fusion.voxel_size must be 0.0001..1 m", ExitCode::usage);
     require(s.truncation >= 2 * s.voxel_size && s.truncation <= 64 * s.voxel_size,
             "slam.fusion.truncation must span 2..64 voxels", ExitCode::usage);
-    require(s.max_weight >= 1 && s.full_weight_z > 0 && s.least_cosine >= 0 && s.least_cosine < 1,
-            "slam.fusion.max_weight must be 1 or more, full_weight_z above 0, least_cosine 0..1",
+    require(s.max_weight >= 1 && s.full_weight_z > 0,
+            "slam.fusion.max_weight must be 1 or more and slam.fusion.full_weight_z above 0",
+            ExitCode::usage);
+    require(s.least_cosine >= 0 && s.least_cosine < 1, "slam.fusion.least_cosine must be 0..1",
             ExitCode::usage);
 }
 

@@ -58,7 +58,7 @@ inline pid_t start_program(std::vector<std::string> arguments) {
 
 /// How every small run is made: few samples, voxels that suit few pixels.
 inline const std::string coarse =
-    " --quiet --samples 4 --set slam.voxel_size=0.02 --set slam.truncation=0.08 ";
+    " --quiet --samples 4 --set slam.fusion.voxel_size=0.02 --set slam.fusion.truncation=0.08 ";
 
 /// Six frames of the desk at 96 x 72 px, recorded once per test program, at first use.
 inline const std::filesystem::path& tiny_recording() {

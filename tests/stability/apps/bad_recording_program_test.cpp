@@ -90,8 +90,8 @@ TEST_F(DamagedRecording, AMissingFileLeavesOutItsFrame) {
     fs::remove(recording / "rgb/000003.png");
     const Outcome outcome = run_program("replay " + recording.string() + " --scene " +
                                         tiny_scene().string() + " --out " + out.string() +
-                                        " --samples 4 --set slam.voxel_size=0.02"
-                                        " --set slam.truncation=0.08");
+                                        " --samples 4 --set slam.fusion.voxel_size=0.02"
+                                        " --set slam.fusion.truncation=0.08");
     EXPECT_EQ(outcome.code, 0);
     EXPECT_THAT(outcome.err, HasSubstr("rgb/000003.png"));
     EXPECT_THAT(test::pictures(out), SizeIs(10));

@@ -138,7 +138,7 @@ TEST(BadScenes, TexelsThatAreNoNumbersAreBlackAndNamed) {
         run_program("replay " + tiny_recording().string() + " --scene " +
                     (folder / "scene.json").string() + " --out " + (folder / "out").string() +
                     " --samples 4 --frames 0-1 --layers all --poses recorded"
-                    " --set slam.voxel_size=0.02 --set slam.truncation=0.08");
+                    " --set slam.fusion.voxel_size=0.02 --set slam.fusion.truncation=0.08");
     EXPECT_EQ(outcome.code, 0);
     EXPECT_THAT(outcome.err, HasSubstr("64 texels were not finite"));
     for (const char* name : {"exr/000000.exr", "exr/000001.exr"}) {
@@ -154,8 +154,8 @@ TEST(BadOptions, AreWrongUsage) {
         {"--layers nonsense", "there is no layer 'nonsense'"},
         {"--layers E_R_dirct", "did you mean 'E_R_direct'"},
         {"--set nonsense=1", "there is no setting 'nonsense'"},
-        {"--set slam.voxel_siz=1", "did you mean 'slam.voxel_size'"},
-        {"--set slam.voxel_size=nan", "slam.voxel_size"},
+        {"--set slam.fusion.voxel_siz=1", "did you mean 'slam.fusion.voxel_size'"},
+        {"--set slam.fusion.voxel_size=nan", "slam.fusion.voxel_size"},
         {"--shard 3/2", "--shard 3/2: expected I/N"},
         {"--frames 7", "0 to 5"},
     };

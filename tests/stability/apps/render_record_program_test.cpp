@@ -2,6 +2,11 @@
 #include "tests/support/program_runs.h"
 
 #include <nlohmann/json.hpp>
+#include <signal.h>
+
+#include <chrono>
+#include <functional>
+#include <thread>
 
 namespace inlay {
 namespace {
@@ -43,6 +48,27 @@ Outcome record(const fs::path& scene, const fs::path& out, const std::string& op
                        " --length 2 --samples 4 --truth none --quiet " + options);
 }
 
+/// Interrupts the program as soon as `begun` says so; returns its exit code, -1 if a signal ended
+/// it.
+int interrupt_when(const std::vector<std::string>& arguments,
+                   const std::function<bool(pid_t)>& begun) {
+    const pid_t process = test::start_program(arguments);
+    int status = 0;
+    while (!begun(process) && ::waitpid(process, &status, WNOHANG) == 0)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ::kill(process, SIGINT);
+    ::waitpid(process, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/// Whether a process has a handler for SIGINT, as the kernel tells.
+bool listens(pid_t process) {
+    const std::string status = file_text("/proc/" + std::to_string(process) + "/status");
+    const std::size_t at = status.find("SigCgt:");
+    if (at == std::string::npos) return false;
+    return (std::stoull(status.substr(at + 7), nullptr, 16) >> (SIGINT - 1)) & 1;
+}
+
 TEST(Render, GivesTheSameBytesTwice) {
     const TemporaryFolder folder;
     write_file(folder / "scene.json", small_scene);
@@ -71,6 +97,17 @@ TEST(Render, RefusesWhatItCannotSeeOrWrite) {
     EXPECT_EQ(folder.entries(), 2);
 }
 
+TEST(Render, SaysWhenItIsInterruptedAndWritesNothing) {
+    const TemporaryFolder folder;
+    write_file(folder / "scene.json", small_scene);
+    const fs::path out = folder / "a.png";
+    EXPECT_EQ(interrupt_when({"render", (folder / "scene.json").string(), "--out", out.string(),
+                              "--samples", "4", "--photo-samples", "2000"},
+                             listens),
+              130);
+    EXPECT_EQ(folder.entries(), 1);
+}
+
 TEST(Record, RefusesAFolderThatIsComplete) {
     const TemporaryFolder folder;
     write_file(folder / "scene.json", small_scene);
@@ -94,6 +131,56 @@ TEST(Record, CompletesAFolderThatIsNot) {
     EXPECT_EQ(again.code, 0) << again.err;
     EXPECT_TRUE(test::contents(folder / "out") == before);
     EXPECT_EQ(run_program("info " + (folder / "out").string()).code, 0);
+}
+
+TEST(Record, StopsWhenInterruptedAndLeavesTheFolderIncomplete) {
+    const TemporaryFolder folder;
+    write_file(folder / "scene.json", small_scene);
+    const fs::path out = folder / "out";
+    const int code =
+        interrupt_when({"record", (folder / "scene.json").string(), "--out", out.string(),
+                        "--length", "400", "--samples", "16", "--truth", "none"},
+                       [&](pid_t) { return fs::exists(out / "rgb/000001.png"); });
+    EXPECT_EQ(code, 130);
+    EXPECT_FALSE(fs::exists(out / "record.json"));
+    EXPECT_TRUE(fs::exists(out / "rgb/000001.png"));
+    EXPECT_FALSE(fs::exists(out / "rgb/000399.png"));
+    for (const auto& [name, bytes] : test::contents(out))  // nothing is left in the making
+        EXPECT_FALSE(fs::path(name).filename().string().starts_with(".")) << name;
+}
+
+TEST(Record, CopiesExactlyTheFilesOfTheScene) {
+    const TemporaryFolder folder;
+    const fs::path assets = folder / "assets", out = folder / "out";
+    write_file(assets / "plate/plate.obj",
+               "mtllib parts/plate.mtl\nv -0.3 0 0\nv 0.3 0 0\nv 0 0.3 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+               "usemtl m\nf 1/1 2/2 3/3\n");
+    write_file(assets / "plate/parts/plate.mtl",
+               "newmtl m\nKd 1 1 1\nmap_Kd parts/pictures/plate.png\n");
+    test::write_color(assets / "plate/parts/pictures/plate.png", 8, 8);
+    test::write_color(assets / "plate/other.png", 8, 8);
+    write_file(folder / "elsewhere/mesh.txt", "not of the scene");
+    fs::create_symlink(folder / "elsewhere/mesh.txt", assets / "plate/parts/mesh.txt");
+    fs::create_directory_symlink(assets / "plate", assets / "link");
+    nlohmann::json scene = nlohmann::json::parse(small_scene);
+    scene["objects"][0].erase("sphere");
+    scene["objects"][0].erase("material");
+    scene["objects"][0]["mesh"] = "link/plate.obj";
+    write_file(folder / "scene.json", scene.dump());
+    const Outcome first = record(folder / "scene.json", out, "--assets " + assets.string());
+    ASSERT_EQ(first.code, 0) << first.err;
+    const auto copied = test::contents(out);
+    for (const char* name : {"plate.obj", "parts/plate.mtl", "parts/pictures/plate.png"}) {
+        EXPECT_EQ(copied.at(std::string("link/") + name), file_text(assets / "plate" / name));
+        EXPECT_FALSE(fs::is_symlink(out / "link" / name));
+    }
+    EXPECT_FALSE(copied.contains("link/other.png"));
+    EXPECT_FALSE(copied.contains("link/parts/mesh.txt"));
+    EXPECT_FALSE(fs::is_symlink(out / "link"));
+    fs::remove_all(assets);  // the copy stands for itself
+    const Outcome again = record(out / "scene.json", folder / "again");
+    ASSERT_EQ(again.code, 0) << again.err;
+    EXPECT_TRUE(file_text(folder / "again/rgb/000000.png") == copied.at("rgb/000000.png"));
 }
 
 TEST(Record, RefusesWhatItCannotFilm) {

@@ -139,14 +139,54 @@ TEST(Replay, LeavesTheRecordingAloneWhereTrackingIsLost) {
     EXPECT_TRUE(has_recorded_pixels(folder / "out", "000002.png"));
 }
 
+TEST(Replay, WithRecordedPosesShowsThePhotographWhereOneIsMissing) {
+    const TemporaryFolder folder;
+    const fs::path recording = test::copy_of_recording(folder);
+    std::istringstream poses(test::file_text(recording / "groundtruth.txt"));
+    std::string kept;
+    int number = 0;
+    for (std::string line; std::getline(poses, line);)
+        if (line.starts_with("#") || number++ < 5) kept += line + "\n";
+    test::write_file(recording / "groundtruth.txt", kept);
+    const Outcome outcome =
+        run_program("replay " + recording.string() + " --scene " + tiny_scene().string() +
+                    " --out " + (folder / "out").string() +
+                    " --samples 4 --poses recorded"
+                    " --set slam.fusion.voxel_size=0.02"
+                    " --set slam.fusion.truncation=0.08");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("1 of 6 frames have no usable recorded pose"));
+    const std::vector<json> lines = lines_of(folder / "out");
+    ASSERT_THAT(lines, SizeIs(6));
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        EXPECT_EQ(lines[i]["tracking"], i == 5 ? "lost" : "tracked");
+    EXPECT_TRUE(has_recorded_pixels(folder / "out", "000005.png"));
+    EXPECT_FALSE(has_recorded_pixels(folder / "out", "000004.png"));
+}
+
+TEST(Replay, AddsUpTheTimesOfAllStages) {
+    const TemporaryFolder folder;
+    const Outcome outcome =
+        replay(tiny_recording(), tiny_scene(), folder / "out", "--frames 0 --json");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const json totals = json::parse(outcome.out);
+    double sum = 0;
+    for (const char* stage : {"load", "slam", "plan", "trace", "filter", "composite", "write"})
+        sum += totals["mean_ms"][stage].get<double>();
+    EXPECT_NEAR(sum, totals["mean_ms"]["total"].get<double>(), 1e-6);
+    EXPECT_EQ(totals["dropped_samples"], 0);
+    EXPECT_EQ(totals["replaced_pixels"], 0);
+}
+
 TEST(Replay, ReportsEveryFrameInALine) {
     const std::vector<json> lines = lines_of(whole_run(posed));
     ASSERT_THAT(lines, SizeIs(6));
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const json& line = lines[i];
         // in alphabetical order, as the parser keeps them
-        EXPECT_THAT(keys(line), ElementsAre("frame", "ms", "pixels", "plan", "rays", "time_s",
-                                            "tracking", "world_from_camera"));
+        EXPECT_THAT(keys(line),
+                    ElementsAre("dropped_samples", "frame", "ms", "pixels", "plan", "rays",
+                                "replaced_pixels", "time_s", "tracking", "world_from_camera"));
         EXPECT_THAT(keys(line["ms"]), ElementsAre("composite", "filter", "load", "plan", "slam",
                                                   "total", "trace", "write"));
         EXPECT_THAT(keys(line["rays"]), ElementsAre("primary", "real_indirect", "real_shadow",
@@ -164,13 +204,19 @@ TEST(Replay, ReportsEveryFrameInALine) {
 TEST(Replay, DescribesTheRun) {
     const json run = json::parse(test::file_text(whole_run(posed) / "run.json"));
     EXPECT_THAT(run["version"].get<std::string>(), testing::Not(IsEmpty()));
-    EXPECT_EQ(run["command"], "replay");
-    EXPECT_EQ(run["settings"]["slam.voxel_size"], "0.02");
+    EXPECT_EQ(run["command"][1], "replay");
+    EXPECT_EQ(run["command"][2], tiny_recording().string());
+    EXPECT_THAT(run["command"], testing::Contains("--poses"));
+    EXPECT_EQ(run["frames"], "all");
+    EXPECT_EQ(run["shard"], "");
+    EXPECT_EQ(run["assets"], json::array());
+    EXPECT_THAT(run["scene"]["files"], testing::Contains(run["scene"]["files"]["vase/vase.png"]));
+    EXPECT_EQ(run["settings"]["slam.fusion.voxel_size"], "0.02");
     EXPECT_EQ(run["settings"]["slam.poses"], "recorded");
     EXPECT_EQ(run["recording"]["frames"], 6);
     EXPECT_THAT(run["recording"]["fingerprint"].get<std::string>(), SizeIs(16));
     EXPECT_THAT(run["scene"]["fingerprint"].get<std::string>(), SizeIs(16));
-    EXPECT_THAT(run["plan"], SizeIs(testing::Ge(5)));
+    EXPECT_THAT(run["plan"], SizeIs(4));
     for (const json& effect : run["plan"])
         EXPECT_THAT(effect["reason"].get<std::string>(), testing::Not(IsEmpty()));
 }

@@ -36,9 +36,9 @@ std::vector<std::string> slow_replay(const fs::path& out) {
             "--samples",
             "4",
             "--set",
-            "slam.voxel_size=0.02",
+            "slam.fusion.voxel_size=0.02",
             "--set",
-            "slam.truncation=0.08",
+            "slam.fusion.truncation=0.08",
             "--poses",
             "recorded",
             "--set",
@@ -125,11 +125,67 @@ TEST(Resume, RefusesAnotherRun) {
         EXPECT_THAT(outcome.err, HasSubstr(message));
     };
     expect_refused(tiny_scene(), slow, 73, "--resume");
-    expect_refused(tiny_scene(), slow + "--resume --seed 2", 2, "other settings");
+    expect_refused(tiny_scene(), slow + "--resume --seed 2", 2,
+                   "settings trace.seed was \"1\" and is \"2\"");
     expect_refused(tiny_scene(), slow + "--resume --layers M", 2, "other layers");
     expect_refused(edited, slow + "--resume --assets " + tiny_recording().string(), 2,
                    "other scene");
     EXPECT_TRUE(contents(uninterrupted()) == before);
+}
+
+/// A folder with a textured mesh in it, and the run of frame 0 with it.
+void make_run_with_assets(const TemporaryFolder& folder, const std::string& scene) {
+    const fs::path assets = folder / "assets";
+    test::write_file(folder / "scene.json", scene);
+    test::write_file(assets / "plate/plate.obj",
+                     "mtllib plate.mtl\nv 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+                     "usemtl m\nf 1/1 2/2 3/3\n");
+    test::write_file(assets / "plate/plate.mtl", "newmtl m\nKd 0.5 0.5 0.5\nmap_Kd plate.png\n");
+    test::write_color(assets / "plate/plate.png", 8, 8);
+}
+
+TEST(Resume, NamesWhatDiffers) {
+    const TemporaryFolder folder;
+    make_run_with_assets(folder,
+                         R"({"version": 1, "environment": {"constant": [1, 1, 1]}, "objects": [
+        {"name": "plate", "mesh": "plate/plate.obj",
+         "transform": [1,0,0,0, 0,1,0,0.05, 0,0,1,0, 0,0,0,1]}]})");
+    const fs::path recording = test::copy_of_recording(folder);
+    const auto run = [&](const std::string& options) {
+        return replay(recording, folder / "scene.json", folder / "out",
+                      "--frames 0 --assets " + (folder / "assets").string() + " " + options);
+    };
+    const Outcome first = run("");
+    ASSERT_EQ(first.code, 0) << first.err;
+    const auto expect_refused = [&](const std::string& options, const std::string& what) {
+        const Outcome outcome = run("--resume " + options);
+        EXPECT_EQ(outcome.code, 2) << options;
+        EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("run.json"), HasSubstr(what)));
+    };
+    expect_refused("--max-depth 3", "recording max_depth_m was 0.0 and is 3.0");
+    expect_refused("--poses recorded", "settings slam.poses was \"tracked\" and is \"recorded\"");
+    expect_refused("--slam fast", "settings slam.depth.smoothing_radius was \"3\" and is \"2\"");
+    const auto expect_refused_when_changed = [&](const fs::path& file, const std::string& text,
+                                                 const std::string& what) {
+        const std::string before = test::file_text(file);
+        test::write_file(file, text);
+        expect_refused("", what);
+        test::write_file(file, before);
+    };
+    const fs::path plate = folder / "assets/plate";
+    const std::string mesh = test::file_text(plate / "plate.obj");
+    expect_refused_when_changed(plate / "plate.obj", mesh + "\n", "scene files plate/plate.obj");
+    expect_refused_when_changed(plate / "plate.mtl", test::file_text(plate / "plate.mtl") + "\n",
+                                "scene files plate/plate.mtl");
+    expect_refused_when_changed(plate / "plate.png", test::file_text(plate / "plate.png") + "x",
+                                "scene files plate/plate.png");
+    std::string camera = test::file_text(recording / "camera.json");
+    camera.replace(camera.find("\"up\""), std::string::npos, "\"up\": [0, 0, 1]}");
+    expect_refused_when_changed(recording / "camera.json", camera, "recording up was");
+    expect_refused_when_changed(recording / "groundtruth.txt",
+                                "0.0 0 0 0 0 0 0 1\n0.2 0 0 0 0 0 0 1\n", "recording fingerprint");
+    const Outcome same = run("--resume --threads 1");
+    EXPECT_EQ(same.code, 0) << same.err;
 }
 
 }  // namespace

@@ -105,6 +105,30 @@ TEST(FrameLoop, ALostFrameShowsThePhotographAlone) {
     EXPECT_TRUE(out.plan.names().empty());
 }
 
+TEST(FrameLoop, WithRecordedPosesAFrameWithoutOneIsLostAndTeachesNothing) {
+    Settings settings = quick_settings();
+    settings.use_recorded_poses = true;
+    const auto frame = [](int number, bool posed) {
+        RgbdFrame recorded = test::record_frame(test::tabletop(), lens, number);
+        if (!posed) recorded.recorded_world_from_camera.reset();
+        return recorded;
+    };
+    Session some = start_session(settings, test::two_virtual_balls(), test::soft_light());
+    Session all = start_session(settings, test::two_virtual_balls(), test::soft_light());
+    const OutputFrame first = advance(some, frame(0, false), FrameWork::compose);
+    EXPECT_EQ(first.tracking.status, TrackingStatus::lost);
+    EXPECT_TRUE(some.slam.volume.bricks.empty());
+    EXPECT_GT(advance(some, frame(1, true), FrameWork::compose).composite.influenced_pixels, 0u);
+    advance(all, frame(1, true), FrameWork::compose);
+    const OutputFrame lost = advance(some, frame(2, false), FrameWork::compose);
+    EXPECT_EQ(lost.tracking.status, TrackingStatus::lost);
+    EXPECT_TRUE(same_bytes(lost.composite.display, frame(2, true).color));
+    EXPECT_EQ(lost.rays.primary, 0u);
+    // the same model as if the lost frames had not been there
+    EXPECT_EQ(some.slam.volume.bricks.size(), all.slam.volume.bricks.size());
+    EXPECT_EQ(some.slam.frames_lost, 0);
+}
+
 TEST(FrameLoop, AFrameIsTheSameWhetherOrNotTheOnesBeforeWereShown) {
     const VirtualScene room = test::tabletop();
     const OutputFrame all = play(quick_settings(), test::two_virtual_balls(), 4);
