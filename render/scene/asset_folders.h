@@ -17,8 +17,7 @@ struct AssetFile {
 /// Folders as the file system knows them (absolute, without links), in the order they are searched.
 struct AssetFolders {
     std::vector<std::filesystem::path> folders;
-    std::filesystem::path within =
-        {};  // place of the names that are asked for; "" beside the scene
+    std::filesystem::path within = {};  // place of the names asked for; "" beside the scene
     /// What was opened through this value and its copies, each file and place once.
     std::shared_ptr<std::vector<AssetFile>> opened = std::make_shared<std::vector<AssetFile>>();
 };
