@@ -15,6 +15,7 @@ struct Command {
     std::function<int()> (*add)(CLI::App& subcommand);
 };
 
+std::function<int()> add_accuracy(CLI::App& subcommand);
 std::function<int()> add_compare(CLI::App& subcommand);
 std::function<int()> add_info(CLI::App& subcommand);
 std::function<int()> add_reconstruct(CLI::App& subcommand);

@@ -28,6 +28,7 @@ const Command commands[] = {
     {"info", "What a recording holds, what was assumed, what is wrong with it", inlay::add_info},
     {"reconstruct", "Where the camera was, and the room as a mesh", inlay::add_reconstruct},
     {"compare", "How far pictures are from their references: error figures", inlay::add_compare},
+    {"accuracy", "Error against time, for every method and setting", inlay::add_accuracy},
 };
 
 // Beyond the codes that commands use, as sysexits has them.

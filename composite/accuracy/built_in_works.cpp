@@ -1,0 +1,63 @@
+#include "composite/accuracy/built_in_works.h"
+
+#include "composite/record/film_scene.h"
+#include "composite/write/atomic_file.h"
+#include "recordings/base/check.h"
+
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+
+namespace inlay {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+ordered_json description(const std::string& name, const BuiltInSettings& s) {
+    return {{"scene", name + ".json"},
+            {"size", {s.size.x, s.size.y}},
+            {"frames", s.frames},
+            {"samples", s.samples},
+            {"truth_frames", s.truth_frames},
+            {"truth_samples", s.truth_samples}};
+}
+
+void record(const fs::path& scene, const fs::path& folder, const BuiltInSettings& s,
+            const std::function<void(int)>& frame_done) {
+    const FilmedScene film =
+        film_scene(load_scene_file(scene), scene.string(), {s.size, /*hand_held=*/true});
+    RecordSettings settings;
+    settings.frames = s.frames;
+    settings.samples = s.samples;
+    settings.truth_samples = s.truth_samples;
+    settings.truth_frames = {s.truth_frames.begin(), s.truth_frames.end()};
+    record_scene(film, settings, folder, {frame_done, [] { return false; }});
+}
+
+}  // namespace
+
+const std::vector<std::string>& built_in_names() {
+    static const std::vector<std::string> names{"desk", "sunny", "soft_sky", "contact", "moving"};
+    return names;
+}
+
+Work built_in_work(const std::string& name, const fs::path& scenes, const fs::path& folder,
+                   const BuiltInSettings& settings, const std::function<void(int)>& frame_done) {
+    const fs::path scene = scenes / (name + ".json");
+    const fs::path recording = folder / name;
+    const fs::path mark = recording / "record.json";
+    const ordered_json wanted = description(name, settings);
+    if (!fs::exists(mark)) {
+        make_folder(recording);
+        record(scene, recording, settings, frame_done);
+        write_text(mark, wanted.dump(1) + "\n");
+    }
+    std::ifstream stream(mark);
+    require(ordered_json::parse(stream, nullptr, /*allow_exceptions=*/false) == wanted,
+            mark.string() + ": was recorded with other settings; choose another folder",
+            ExitCode::usage);
+    return open_work(recording, Settings{}, scene);
+}
+
+}  // namespace inlay

@@ -1,0 +1,36 @@
+// Methods: what turns noisy irradiances into a picture's light, one row each.
+#pragma once
+
+#include "render/filter/filter_settings.h"
+#include "render/trace/layers.h"
+
+#include <string>
+#include <vector>
+
+namespace inlay {
+
+/// What every method gets: the same samples.
+struct MethodInput {
+    const NoisyLayers& now;
+    const NoisyLayers* previous = nullptr;  // null: without the previous frame
+    double environment_bandwidth = 0;       // B_e, 1/rad
+    const FilterSettings& settings;
+    double width = 0;  // one of the method's widths; 0 where it has none
+};
+
+struct Method {
+    std::string name;            // as in --only and accuracy.json
+    std::string title;           // as a reader sees it
+    std::string family;          // none, inlay, thesis or baseline
+    std::string summary;         // one sentence
+    std::vector<double> widths;  // tried, of which the best one stands for the method; empty: none
+    Layers (*apply)(const MethodInput& input);
+};
+
+/// All methods; a new technique is one row here.
+const std::vector<Method>& methods();
+
+/// Throws Error (usage) that names the nearest method.
+const Method& method_named(const std::string& name);
+
+}  // namespace inlay

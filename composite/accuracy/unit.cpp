@@ -1,0 +1,159 @@
+#include "composite/accuracy/unit.h"
+
+#include "composite/blend/differential.h"
+#include "render/filter/filter_layers.h"
+
+#include <array>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+namespace inlay {
+namespace {
+
+constexpr std::uint32_t reference_seed_offset = 0xacc0;
+/// Camera rays per pixel of a reference: edges and textures need as many as light does.
+constexpr int reference_secondary = 16;
+/// Frame numbers, far from any recording's, under which a still frame is sampled again.
+constexpr std::uint32_t still_index = 0x40000000;
+
+/// The samplings of one frame that methods need.
+struct Samplings {
+    SampledFrame now;
+    std::optional<SampledFrame> previous;
+    std::vector<SampledFrame> still;  // two more of the same view, or none
+};
+
+const NoisyLayers* layers_of(const std::optional<SampledFrame>& frame) {
+    return frame ? &frame->result.layers : nullptr;
+}
+
+Samplings take_samples(const Work& work, const JudgedFrame& frame, const UnitPlan& plan) {
+    const SamplingSettings& sampling = plan.settings.trace;
+    const auto index = std::uint32_t(frame.now.frame);
+    Samplings taken;
+    if (frame.previous) taken.previous = sample_frame(work, *frame.previous, sampling, index - 1);
+    taken.now = sample_frame(work, frame.now, sampling, index);
+    for (std::uint32_t i = 0; plan.with_flicker && i < 2; ++i)
+        taken.still.push_back(sample_frame(work, frame.now, sampling, still_index + i));
+    return taken;
+}
+
+struct Made {
+    Composite picture;
+    Cost filter, composite;
+};
+
+Made make(const Work& work, const TrackedFrame& frame, const NoisyLayers& now,
+          const NoisyLayers* previous, const UnitPlan& plan, const MethodCell& cell) {
+    Made made;
+    CostWatch watch;
+    const Layers layers =
+        cell.method->apply({now, cell.temporal ? previous : nullptr, work.environment_bandwidth,
+                            plan.settings.filter, cell.width});
+    made.filter = watch.lap();
+    made.picture = composite(*frame.photo, layers, plan.settings.blend);
+    made.composite = watch.lap();
+    return made;
+}
+
+/// RMS difference of two pictures of a still camera, over the pixels that objects influence.
+double still_flicker(const Work& work, const JudgedFrame& frame, const Samplings& taken,
+                     const UnitPlan& plan, const MethodCell& cell) {
+    const std::array<const NoisyLayers*, 3> s{
+        &taken.now.result.layers, &taken.still[0].result.layers, &taken.still[1].result.layers};
+    const Made a = make(work, frame.now, *s[1], s[0], plan, cell);
+    const Made b = make(work, frame.now, *s[2], s[1], plan, cell);
+    const Mask& mask = (frame.converged ? frame.converged : frame.truth)->influenced;
+    return radiance_error(a.picture.linear, b.picture.linear, mask).rmse;
+}
+
+void judge(const Work& work, const JudgedFrame& frame, const Samplings& taken, const UnitPlan& plan,
+           const MethodCell& cell, const Composite& picture, MethodRun& run) {
+    if (frame.converged)
+        run.converged = error_against(*frame.converged, picture.linear, picture.display);
+    if (frame.truth) run.truth = error_against(*frame.truth, picture.linear, picture.display);
+    const bool influenced = (run.converged && run.converged->influenced) ||
+                            (!run.converged && run.truth && run.truth->influenced);
+    if (!taken.still.empty() && influenced)
+        run.flicker = still_flicker(work, frame, taken, plan, cell);
+}
+
+MethodRun run_method(const Work& work, const JudgedFrame& frame, const Samplings& taken,
+                     const UnitPlan& plan, const MethodCell& cell) {
+    MethodRun run;
+    run.method = cell.method->name;
+    run.temporal = cell.temporal;
+    run.width = cell.width;
+    run.frame = frame.now.frame;
+    try {
+        const Made made =
+            make(work, frame.now, taken.now.result.layers, layers_of(taken.previous), plan, cell);
+        run.filter = made.filter;
+        run.composite = made.composite;
+        if (plan.judge) judge(work, frame, taken, plan, cell, made.picture, run);
+    } catch (const std::exception& error) {
+        run.failed = error.what();
+    }
+    return run;
+}
+
+Image<Rgb> converged_half(const Work& work, const TrackedFrame& frame, const Settings& settings,
+                          int samples, std::uint32_t half) {
+    SamplingSettings sampling = settings.trace;
+    sampling.secondary = std::min(reference_secondary, samples);
+    sampling.primary = std::max(1, samples / sampling.secondary);
+    sampling.seed += reference_seed_offset + half;
+    const SampledFrame sampled = sample_frame(work, frame, sampling, std::uint32_t(frame.frame));
+    FilterSettings off = settings.filter;
+    off.enabled = false;
+    return composite(*frame.photo, filter_layers(sampled.result.layers, nullptr, 0, off),
+                     settings.blend)
+        .linear;
+}
+
+}  // namespace
+
+SampledFrame sample_frame(const Work& work, const TrackedFrame& frame,
+                          const SamplingSettings& sampling, std::uint32_t index) {
+    const EmbreeScene objects = EmbreeSceneCache().place(work.scene, frame.time, /*real=*/false);
+    SamplingSettings settings = sampling;
+    settings.depth_tolerance = frame.depth_tolerance;
+    CostWatch watch;
+    SampledFrame sampled;
+    sampled.result = sample_two_modes(
+        {frame.lens, frame.world_from_camera, frame.geometry, objects, work.environment}, settings,
+        index);
+    sampled.cost = watch.lap();
+    return sampled;
+}
+
+Reference converge(const Work& work, const TrackedFrame& frame, const Settings& settings,
+                   int samples_per_half) {
+    const Image<Rgb> a = converged_half(work, frame, settings, samples_per_half, 0);
+    const Image<Rgb> b = converged_half(work, frame, settings, samples_per_half, 1);
+    return mean_of_halves(a, b, frame.photo->linear);
+}
+
+UnitRun measure_unit(const Work& work, const std::vector<JudgedFrame>& frames,
+                     const UnitPlan& plan) {
+    UnitRun unit;
+    unit.work = work.name;
+    unit.knob = plan.knob;
+    unit.value = plan.value;
+    unit.primary = plan.settings.trace.primary;
+    unit.secondary = plan.settings.trace.secondary;
+    for (const JudgedFrame& frame : frames) {
+        const Samplings taken = take_samples(work, frame, plan);
+        unit.frames.push_back(
+            {frame.now.frame, frame.now.slam_ms, taken.now.cost, taken.now.result.rays});
+        for (const MethodCell& cell : plan.cells) {
+            if (cell.temporal && !frame.previous) continue;
+            unit.runs.push_back(run_method(work, frame, taken, plan, cell));
+        }
+    }
+    unit.peak_mb = peak_memory_mb();
+    return unit;
+}
+
+}  // namespace inlay

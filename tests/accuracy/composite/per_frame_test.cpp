@@ -1,0 +1,116 @@
+// Every built-in recording, frame by frame: the composite against the scene with the objects really
+// in it, within a budget that is derived before the composite is made.
+#include "composite/accuracy/blame.h"
+#include "composite/accuracy/built_in_works.h"
+#include "composite/accuracy/frame_budget.h"
+#include "composite/accuracy/judged_frames.h"
+#include "composite/blend/differential.h"
+#include "composite/write/atomic_file.h"
+#include "composite/write/write_png.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+
+namespace inlay {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Enough that the truth's own noise, which is taken out, is well below what is measured.
+const BuiltInSettings small{{160, 120}, 8, 48, 192, {3, 7}};
+constexpr int converged_samples = 256;
+
+class PerFrame : public testing::TestWithParam<std::string> {
+protected:
+    PerFrame()
+        : folder_(fs::temp_directory_path() /
+                  fmt::format("inlay_per_frame_{}_{}", GetParam(), getpid())),
+          work_(built_in_work(GetParam(), fs::path(INLAY_SOURCE_DIR) / "apps" / "scenes", folder_,
+                              small)) {}
+    ~PerFrame() override { fs::remove_all(folder_); }
+
+    /// What a failing frame leaves beside the test: pictures, and which stage is to blame.
+    void explain(int frame, const Image<Rgb>& picture, const Image<Rgb>& truth) const {
+        const fs::path place = fs::path("failed") / fmt::format("{}.{}", GetParam(), frame);
+        make_folder(place);
+        Image<Rgb> difference = picture;
+        for (std::size_t i = 0; i < picture.pixels.size(); ++i)
+            difference.pixels[i] = 4.0f * glm::abs(picture.pixels[i] - truth.pixels[i]);
+        write_png(place / "composite.png", encode(picture));
+        write_png(place / "truth.png", encode(truth));
+        write_png(place / "difference_x4.png", encode(difference));
+        std::cout << blame_line(blame_frame(work_, frame, settings_, converged_samples))
+                  << "\npictures in " << fs::absolute(place).string() << "\n";
+    }
+
+    fs::path folder_;
+    Settings settings_;
+    Work work_;
+};
+
+TEST_P(PerFrame, CompositeKeepsItsBudget) {
+    for (const TrackedFrame& frame : track_frames(work_, work_.truth_frames, settings_)) {
+        ASSERT_EQ(frame.tracking.status, TrackingStatus::tracked) << "frame " << frame.frame;
+        const FrameBudget budget = frame_budget(work_, frame, settings_, converged_samples);
+        std::cout << fmt::format("{} {}: {}\n", work_.name, frame.frame, budget_line(budget));
+
+        const Reference truth = *truth_of_frame(work_, frame.frame, frame.lens);
+        const Composite picture =
+            composite(*frame.photo, light_of(work_, frame, settings_), settings_.blend);
+        const double rmse =
+            std::sqrt(error_against(truth, picture.linear, picture.display).mean_square_influenced);
+        std::cout << fmt::format("{} {}: RMSE {:.4f} over influenced pixels\n", work_.name,
+                                 frame.frame, rmse);
+        EXPECT_LT(rmse, budget.total);
+        // An object must be there to be judged, and doing nothing must cost more than is allowed.
+        const double nothing = std::sqrt(
+            error_against(truth, frame.photo->linear, frame.photo->encoded).mean_square_influenced);
+        EXPECT_GT(nothing, budget.total);
+        if (rmse >= budget.total) explain(frame.frame, picture.linear, truth.linear);
+    }
+}
+
+TEST_P(PerFrame, IrradiancesKeepTheirBudget) {
+    for (const TrackedFrame& frame : track_frames(work_, work_.truth_frames, settings_)) {
+        const FrameBudget budget = frame_budget(work_, frame, settings_, converged_samples);
+        const TrackedFrame exact = with_true_room(work_, frame, true_pose(work_, frame.frame));
+        const Layers wanted = light_of(work_, exact, settings_, converged_samples);
+        const IrradianceError error = irradiance_error(light_of(work_, frame, settings_), wanted);
+        std::cout << fmt::format(
+            "{} {}: relative RMSE of E_R {:.3f}, of E_RV {:.3f}; samples and "
+            "filter alone {:.3f} and {:.3f}\n",
+            work_.name, frame.frame, error.e_r, error.e_rv, budget.e_r, budget.e_rv);
+        // Reconstructed normals turn by a few degrees (E changes by as many per cent), shadows move
+        // by the displacement, and pixels at depth edges lie on another surface: a tenth of the
+        // irradiance on top of what samples and filter leave.
+        EXPECT_LT(error.e_r, budget.e_r + 0.1);
+        EXPECT_LT(error.e_rv, budget.e_rv + 0.1);
+    }
+}
+
+TEST_P(PerFrame, AStillCameraFlickersLessWithTheFilter) {
+    const Sampling sampling{settings_};
+    const auto frames =
+        judge_frames(work_, {work_.truth_frames.back()}, sampling, converged_samples);
+    UnitPlan plan{"samples", "16", settings_, {}, true, true};
+    plan.cells = {{&method_named("unfiltered"), false, 0},
+                  {&method_named("axis_aligned"), false, 0}};
+    const UnitRun run = measure_unit(work_, frames, plan);
+    ASSERT_EQ(run.runs.size(), 2u);
+    for (const MethodRun& method : run.runs)
+        ASSERT_TRUE(method.flicker.has_value()) << method.method << " " << method.failed;
+    std::cout << fmt::format("{}: flicker {:.4f} unfiltered, {:.4f} filtered\n", work_.name,
+                             *run.runs[0].flicker, *run.runs[1].flicker);
+    EXPECT_LT(*run.runs[1].flicker, *run.runs[0].flicker);
+}
+
+INSTANTIATE_TEST_SUITE_P(BuiltIn, PerFrame, testing::ValuesIn(built_in_names()),
+                         [](const auto& test) { return test.param; });
+
+}  // namespace
+}  // namespace inlay
