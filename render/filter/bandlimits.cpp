@@ -59,16 +59,22 @@ double thesis_indirect_bandwidth(const LocalFrequencies& f) {
     return clamped_bandwidth(f.occluder * limit);
 }
 
+double durand_bandwidth(const LocalFrequencies& f) {
+    const double lobe = f.glossy > 0 ? f.glossy : thesis_cosine_bandlimit;
+    return clamped_bandwidth(std::abs(2 * f.curvature + f.occluder) * lobe);
+}
+
 double inverse_width(const LocalFrequencies& f, LightKind light, const FilterSettings& settings) {
     if (settings.constants == FilterConstants::thesis) {
         return 2 * (light == LightKind::direct ? thesis_direct_bandwidth(f)
                                                : thesis_indirect_bandwidth(f));
     }
+    if (settings.constants == FilterConstants::durand) return 2 * durand_bandwidth(f);
     return clamped_bandwidth(corrected_inverse_width(f, light, settings));
 }
 
 double sample_factor(int samples, const FilterSettings& settings) {
-    if (settings.constants == FilterConstants::thesis) return 1;
+    if (settings.constants != FilterConstants::corrected) return 1;
     return std::pow(samples_of_unit_width / std::max(samples, 1), 0.25);
 }
 

@@ -54,6 +54,11 @@ double thesis_direct_bandwidth(const LocalFrequencies& f);
 /// Mehta 2015, eq. 6.18 with B_h = 2.8 (diffuse) or 4.27 + 0.15 n (glossy), as printed.
 double thesis_indirect_bandwidth(const LocalFrequencies& f);
 
+/// |2 kappa + c| B_rho with B_f = 1 in the place of B_rho where diffuse: Durand et al. 2005, eq. 21
+/// as Mehta 2015, eq. 6.19 has it, for direct and indirect light alike. It leaves out how fast the
+/// light itself changes. Differs: the absolute value, since kappa may be negative.
+double durand_bandwidth(const LocalFrequencies& f);
+
 enum class LightKind { direct, indirect };
 
 /// 1 / sigma (1/m) of the filter's Gaussian exp(-d^2 / (2 sigma^2)) at 16 samples per pixel.
@@ -61,12 +66,12 @@ enum class LightKind { direct, indirect };
 /// indirect light |kappa| (B_f + 2 B_rho) / s_k + c B_h / s_v. The two terms need safety factors of
 /// their own: a sphere's irradiance of degree l is damped by exp(-l (l + 1) (sigma kappa)^2 / 2),
 /// whereas the occluder's term is a loose bound.
-/// Thesis: 2 B, since eq. 6.23 is exp(-2 B^2 d^2). 0 where nothing bounds the width.
+/// Thesis and Durand: 2 B, since eq. 6.23 is exp(-2 B^2 d^2). 0 where nothing bounds the width.
 double inverse_width(const LocalFrequencies& f, LightKind light, const FilterSettings& settings);
 
 /// g = (16 / samples)^(1/4), by which sigma is multiplied so that the error vanishes as `samples`
-/// (per pixel, counts as 1 at least) grow; 1 with the constants of the thesis, which has no such
-/// factor.
+/// (per pixel, counts as 1 at least) grow; 1 unless the constants are corrected: the thesis has no
+/// such factor.
 double sample_factor(int samples, const FilterSettings& settings);
 
 /// Curvature (1/m) of the surface between two of its points: the angle between the unit normals

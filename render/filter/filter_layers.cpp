@@ -3,52 +3,17 @@
 
 #include "recordings/base/check.h"
 #include "recordings/base/parallel.h"
+#include "render/filter/layer_sizes.h"
 #include "render/filter/receiver_planes.h"
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
 namespace inlay {
 namespace {
-
-template <class Pixel>
-void require_size(const NoisyLayers& layers, const Image<Pixel>& image, const char* name) {
-    require(image.width == layers.lens.width && image.height == layers.lens.height &&
-                image.pixels.size() == std::size_t(image.width) * std::size_t(image.height),
-            std::string("noisy layers: ") + name + " is " + std::to_string(image.width) + " x " +
-                std::to_string(image.height) + " px, expected the lens's " +
-                std::to_string(layers.lens.width) + " x " + std::to_string(layers.lens.height));
-}
-
-void check(const NoisyLayers& layers, const Irradiance& light) {
-    require_size(layers, light.e_r, "e_r");
-    require_size(layers, light.e_rv_real, "e_rv_real");
-    require_size(layers, light.e_rv_virtual, "e_rv_virtual");
-}
-
-void check(const NoisyLayers& layers, const Receiver& receiver) {
-    require_size(layers, receiver.object, "object");
-    require_size(layers, receiver.position, "position");
-    require_size(layers, receiver.normal, "normal");
-    require_size(layers, receiver.occluder_direct, "occluder_direct");
-    require_size(layers, receiver.occluder_indirect, "occluder_indirect");
-}
-
-void check(const NoisyLayers& layers) {
-    require(std::isfinite(layers.lens.fx) && std::isfinite(layers.lens.fy) && layers.lens.fx != 0 &&
-                layers.lens.fy != 0,
-            "noisy layers: a focal length of the lens is 0 or not finite");
-    require_size(layers, layers.m, "m");
-    require_size(layers, layers.k_v, "k_v");
-    require_size(layers, layers.s_rv, "s_rv");
-    require_size(layers, layers.glossy_bandwidth, "glossy_bandwidth");
-    check(layers, layers.direct);
-    check(layers, layers.indirect);
-    check(layers, layers.real);
-    check(layers, layers.virtual_);
-}
 
 /// A kind of receiver in this frame and, resampled to this frame's pixels, in the previous one.
 struct Receivers {
@@ -59,7 +24,7 @@ struct Receivers {
 /// The receiver, cleaned, with the rates that its neighbors know.
 Receiver completed(const Receiver& receiver, const FilterSettings& settings) {
     Receiver result = cleaned(receiver);
-    if (settings.constants == FilterConstants::thesis || settings.rate_reach == 0) return result;
+    if (settings.constants != FilterConstants::corrected || settings.rate_reach == 0) return result;
     for (Image<float> Receiver::*rates : {&Receiver::occluder_direct, &Receiver::occluder_indirect})
         result.*rates = filled_rates(result.*rates, result.object, settings.rate_reach);
     return result;
@@ -140,10 +105,27 @@ struct Frames {
     const NoisyLayers* previous;
     double environment_bandwidth;
     const FilterSettings& settings;
+    const EnvironmentIrradiance* open_sky;  // null: irradiance is smoothed, not the shadow ratio
     Receivers real, virtual_;
 };
 
 using Layer = Image<Rgb> Irradiance::*;
+
+/// E -> E_unocc(n) E / U at every receiver; 0 where U is.
+void scale_to_open_sky(const EnvironmentIrradiance& open_sky, const Receiver& receiver,
+                       const Image<Rgb>& unshadowed, Image<Rgb>& light) {
+    parallel_rows(light.height, [&](int y) {
+        for (int x = 0; x < light.width; ++x) {
+            if (receiver.object(x, y) == 0) continue;
+            const Rgb open = irradiance_on(open_sky, receiver.normal(x, y));
+            for (int c = 0; c < 3; ++c) {
+                const float u = unshadowed(x, y)[c];
+                light(x, y)[c] =
+                    u >= std::numeric_limits<float>::min() ? open[c] * (light(x, y)[c] / u) : 0.0f;
+            }
+        }
+    });
+}
 
 /// Smooths the named layers of one kind of light; returns 1 / sigma per pixel.
 Image<float> smooth_light(const Frames& frames, const Receivers& receivers,
@@ -153,23 +135,35 @@ Image<float> smooth_light(const Frames& frames, const Receivers& receivers,
         return is_direct ? frame.direct : frame.indirect;
     };
     Irradiance& out = is_direct ? result.direct : result.indirect;
+    const bool as_ratio = is_direct && frames.open_sky != nullptr;
     std::vector<const Image<Rgb>*> now, before;
     for (const Layer layer : layers) {
         now.push_back(&(light_of(frames.now).*layer));
         if (frames.previous != nullptr) before.push_back(&(light_of(*frames.previous).*layer));
+    }
+    if (as_ratio) {
+        const auto unshadowed =
+            &receivers == &frames.real ? &Unshadowed::real : &Unshadowed::virtual_;
+        now.push_back(&(frames.now.unshadowed.*unshadowed));
+        if (frames.previous != nullptr)
+            before.push_back(&(frames.previous->unshadowed.*unshadowed));
     }
     if (receivers.now.empty) {
         for (const Layer layer : layers)
             out.*layer = Image<Rgb>(frames.now.lens.width, frames.now.lens.height, Rgb(0));
         return Image<float>(frames.now.lens.width, frames.now.lens.height);
     }
-    LightLimits limits{kind, frames.environment_bandwidth, nullptr, frames.now.samples};
+    LightLimits limits{kind, frames.environment_bandwidth, nullptr, frames.now.samples, as_ratio};
     LightLimits limits_before = limits;
     if (frames.previous != nullptr) limits_before.samples = frames.previous->samples;
     const Smoothed smoothed =
         smooth(receivers, now, before, {limits, limits_before}, frames.settings);
     for (std::size_t i = 0; i < layers.size(); ++i)
         out.*layers[i] = rgb_of(smoothed.channels, 3 * i);
+    if (!as_ratio) return smoothed.inverse_width;
+    const Image<Rgb> unshadowed = rgb_of(smoothed.channels, 3 * layers.size());
+    for (const Layer layer : layers)
+        scale_to_open_sky(*frames.open_sky, receivers.now.receiver, unshadowed, out.*layer);
     return smoothed.inverse_width;
 }
 
@@ -224,21 +218,28 @@ void smooth_glossy(const Frames& frames, Layers& result) {
 }  // namespace
 
 Layers filter_layers(const NoisyLayers& now, const NoisyLayers* previous,
-                     double environment_bandwidth, const FilterSettings& settings) {
+                     double environment_bandwidth, const FilterSettings& settings,
+                     const EnvironmentIrradiance* open_sky) {
     validate(settings);
     require(std::isfinite(environment_bandwidth) && environment_bandwidth >= 0,
             "environment bandwidth is " + std::to_string(environment_bandwidth) +
                 ", expected 0 or more, finite");
-    check(now);
+    require(std::isfinite(now.lens.fx) && std::isfinite(now.lens.fy) && now.lens.fx != 0 &&
+                now.lens.fy != 0,
+            "noisy layers: a focal length of the lens is 0 or not finite");
+    require_layer_sizes(now);
+    if (open_sky != nullptr) require_unshadowed(now);
     const Image<float> blank(now.lens.width, now.lens.height, 0.0f);
     if (!settings.enabled || blank.empty())
         return {now.m, now.k_v, now.s_rv, now.direct, now.indirect, blank, blank};
     if (!settings.temporal) previous = nullptr;
-    if (previous != nullptr) check(*previous);
+    if (previous != nullptr) require_layer_sizes(*previous);
+    if (previous != nullptr && open_sky != nullptr) require_unshadowed(*previous);
     const Frames frames{now,
                         previous,
                         environment_bandwidth,
                         settings,
+                        open_sky,
                         prepare(now, previous, &NoisyLayers::real, settings),
                         prepare(now, previous, &NoisyLayers::virtual_, settings)};
     Layers result{now.m, now.k_v, now.s_rv, {}, {}, {}, {}};

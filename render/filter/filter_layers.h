@@ -1,6 +1,7 @@
 // NoisyLayers -> Layers: each irradiance smoothed with the width that its light allows.
 #pragma once
 
+#include "render/filter/environment_irradiance.h"
 #include "render/filter/filter_settings.h"
 #include "render/trace/layers.h"
 
@@ -17,9 +18,14 @@ namespace inlay {
 /// `environment_bandwidth` is B_e (1/rad, see environment_bandwidth.h).
 /// bandwidth_direct and bandwidth_indirect hold 1 / sigma (1/m), mean of both axes, of the kind of
 /// receiver that covers more of the pixel; 0: no receiver, or only the kernel's radius is a limit.
-/// Throws Error when sizes do not match, a focal length is 0, B_e is not finite or negative, or a
-/// setting is out of its range.
+/// With `open_sky` direct light is smoothed as a shadow ratio: E = E_unocc(n) filt(E) / filt(U),
+/// where U are the same samples without shadows and E_unocc is the irradiance of `open_sky`, 0
+/// where filt(U) is. Curvature does not narrow that filter, since the normal acts through E_unocc
+/// alone. It takes NoisyLayers::unshadowed, and trusts that the map is what the samples were drawn
+/// from. Throws Error when sizes do not match, a focal length is 0, B_e is not finite or negative,
+/// a setting is out of its range, or unshadowed light is missing.
 Layers filter_layers(const NoisyLayers& now, const NoisyLayers* previous,
-                     double environment_bandwidth, const FilterSettings& settings);
+                     double environment_bandwidth, const FilterSettings& settings,
+                     const EnvironmentIrradiance* open_sky = nullptr);
 
 }  // namespace inlay

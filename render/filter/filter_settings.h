@@ -4,8 +4,8 @@
 namespace inlay {
 
 /// Which bandwidths and widths the filter uses: those of Mehta 2015, ch. 6, as printed, or with its
-/// constants corrected (see bandlimits.h).
-enum class FilterConstants { corrected, thesis };
+/// constants corrected (see bandlimits.h), or that of Durand et al. 2005 in its place.
+enum class FilterConstants { corrected, thesis, durand };
 
 struct FilterSettings {
     bool enabled = true;  // false: the noisy values are passed on
@@ -13,7 +13,7 @@ struct FilterSettings {
     bool real_curvature = true;      // false: a real surface's curvature does not narrow the filter
     double curvature_safety = 0.2;   // s_k, > 0; the smaller, the sharper on curved surfaces
     double visibility_safety = 1.0;  // s_v, > 0; the smaller, the sharper next to occluders
-    int rate_reach = 2;              // px, >= 0; see filled_rates; not used with thesis constants
+    int rate_reach = 2;              // px, >= 0; see filled_rates; with corrected constants alone
     int kernel_radius = 15;          // px, >= 0, each way along a row and a column
     double narrowest_width = 1.0;    // px, >= 0; lower bound of sigma
     double normal_stop_deg = 10.0;   // 0..90, exclusive; surfaces that turn further do not mix

@@ -3,6 +3,8 @@
 
 #include "render/filter/axis_aligned_filter.h"
 
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -25,6 +27,24 @@ inline PixelRun pixel_run(const FilterPlanes& planes, const Image<float>& precis
              s.normal[2].pixels.data() + at},
             precision.pixels.data() + at,
             planes.object.pixels.data() + at};
+}
+
+/// exp(-x) for x >= 0 within 2e-7 relative, exactly 1 at 0, and e^-60 beyond 60 (nothing, in a mean
+/// that holds its own pixel with weight 1) where `keep` is 1; 0 where it is 0. No branch: bits are
+/// masked, and numbers that are not negative compare as their bits do.
+inline float exp_minus(float x, std::int32_t keep) {
+    const std::int32_t bounded =
+        std::min(std::bit_cast<std::int32_t>(x), std::bit_cast<std::int32_t>(60.0f));
+    const float power = std::bit_cast<float>(bounded) * -1.44269504f;
+    const auto whole = static_cast<std::int32_t>(power - 0.5f);
+    const float f = power - static_cast<float>(whole);  // -0.5 .. 0.5; Taylor series of 2^f
+    const float mantissa =
+        1.0f + f * (0.693147181f +
+                    f * (0.240226507f +
+                         f * (0.0555041087f +
+                              f * (0.00961812911f + f * (0.00133335581f + f * 0.000154035304f)))));
+    const std::int32_t bits = std::bit_cast<std::int32_t>(mantissa) + whole * (1 << 23);
+    return std::bit_cast<float>(bits & -keep);
 }
 
 /// weights[k] = the weight of a's and b's pixel k (see filter_axis_aligned), for k < count.

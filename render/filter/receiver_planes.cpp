@@ -22,22 +22,6 @@ bool within(const glm::vec3& v, float limit) {
     return true;
 }
 
-std::shared_ptr<const SurfacePlanes> surface_planes(const Receiver& r) {
-    auto planes = std::make_shared<SurfacePlanes>();
-    const Image<float> blank(r.object.width, r.object.height, 0.0f);
-    planes->position.fill(blank);
-    planes->normal.fill(blank);
-    parallel_rows(blank.height, [&](int y) {
-        for (int x = 0; x < blank.width; ++x) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                planes->position[i](x, y) = r.position(x, y)[int(i)];
-                planes->normal[i](x, y) = r.normal(x, y)[int(i)];
-            }
-        }
-    });
-    return planes;
-}
-
 Receiver blank_receiver(int width, int height) {
     return {Image<std::uint32_t>(width, height, 0), Image<glm::vec3>(width, height, glm::vec3(0)),
             Image<glm::vec3>(width, height, glm::vec3(0)), Image<float>(width, height, 0.0f),
@@ -79,6 +63,22 @@ float precision_at(double curvature, const WidthLimits& at, const LightLimits& l
 }
 
 }  // namespace
+
+std::shared_ptr<const SurfacePlanes> surface_planes(const Receiver& r) {
+    auto planes = std::make_shared<SurfacePlanes>();
+    const Image<float> blank(r.object.width, r.object.height, 0.0f);
+    planes->position.fill(blank);
+    planes->normal.fill(blank);
+    parallel_rows(blank.height, [&](int y) {
+        for (int x = 0; x < blank.width; ++x) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                planes->position[i](x, y) = r.position(x, y)[int(i)];
+                planes->normal[i](x, y) = r.normal(x, y)[int(i)];
+            }
+        }
+    });
+    return planes;
+}
 
 bool any_object(const Receiver& r) {
     return std::any_of(r.object.pixels.begin(), r.object.pixels.end(),
@@ -219,10 +219,11 @@ void set_precision(FilterPlanes& planes, const PreparedReceiver& receiver,
             const WidthLimits at{double(r.occluder_direct(x, y)), double(r.occluder_indirect(x, y)),
                                  glossy, g,
                                  settings.narrowest_width * double(receiver.footprint(x, y))};
+            const double turning = limits.ignore_curvature ? 0.0 : 1.0;
             planes.precision_x(x, y) =
-                precision_at(double(receiver.curvature.x(x, y)), at, limits, settings);
+                precision_at(turning * double(receiver.curvature.x(x, y)), at, limits, settings);
             planes.precision_y(x, y) =
-                precision_at(double(receiver.curvature.y(x, y)), at, limits, settings);
+                precision_at(turning * double(receiver.curvature.y(x, y)), at, limits, settings);
         }
     });
 }

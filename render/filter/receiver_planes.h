@@ -51,7 +51,11 @@ struct LightLimits {
     double environment_bandwidth = 0;                // B_e, 1/rad
     const Image<float>* glossy_bandwidth = nullptr;  // B_rho per pixel; null: diffuse
     int samples = 16;                                // per pixel
+    bool ignore_curvature = false;                   // the values do not change with the normal
 };
+
+/// The receiver's positions and normals, one plane per coordinate.
+std::shared_ptr<const SurfacePlanes> surface_planes(const Receiver& receiver);
 
 /// Planes of the given images, all smoothed with one width. With `source`, the images belong to
 /// another frame and pixel i is taken from source(i). Pixels with a value that is not finite have

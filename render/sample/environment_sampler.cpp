@@ -1,6 +1,7 @@
 #include "render/sample/environment_sampler.h"
 
 #include "recordings/base/check.h"
+#include "recordings/base/random.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +49,28 @@ EnvironmentSampler make_environment_sampler(EnvironmentMap map) {
     return sampler;
 }
 
+EnvironmentSampler make_light_list(EnvironmentMap map, int length, std::uint32_t seed) {
+    require(length > 0,
+            "light list: its length is " + std::to_string(length) + ", expected 1 or more",
+            ExitCode::usage);
+    EnvironmentSampler sampler = make_environment_sampler(std::move(map));
+    std::vector<LightSample> list;
+    list.reserve(std::size_t(length));
+    for (int i = 0; i < length; ++i) {
+        const SampleKey key{seed, 0, 0, std::uint32_t(i)};
+        const double first = (i + double(uniform(key, 0))) / length;
+        list.push_back(sample_environment(
+            sampler, {std::min(float(first), std::nextafter(1.0f, 0.0f)), uniform(key, 1)}));
+    }
+    sampler.list = std::move(list);
+    return sampler;
+}
+
 LightSample sample_environment(const EnvironmentSampler& sampler, glm::vec2 u) {
+    if (!sampler.list.empty()) {
+        const auto at = std::size_t(double(u.x) * double(sampler.list.size()));
+        return sampler.list[std::min(at, sampler.list.size() - 1)];
+    }
     const Image<Rgb>& radiance = sampler.map.radiance;
     const DiscreteSample row = sample_discrete(sampler.rows, u.x);
     const DiscreteSample column = sample_discrete(sampler.texels[std::size_t(row.index)], u.y);

@@ -6,7 +6,7 @@
 
 #include <glm/glm.hpp>
 
-#include <memory>
+#include <cstdint>
 #include <vector>
 
 namespace inlay {
@@ -25,11 +25,21 @@ struct EnvironmentSampler {
     std::vector<DiscreteTable> texels;  // one per row
     std::vector<double> row_cosines;    // of the polar angles between rows, height + 1 of them
     float mean_luminance = 0;           // over the sphere
+    std::vector<LightSample> list;      // the only samples there are; empty: drawn from the tables
 };
 
 /// Throws Error for an empty map or for texels that are not finite and >= 0. A black map is sampled
 /// evenly over the sphere.
 EnvironmentSampler make_environment_sampler(EnvironmentMap map);
+
+/// A sampler that only ever returns `length` (> 0) samples, drawn once from the map's tables with
+/// `seed`, each equally likely: Mehta 2015's list of light samples (an array to look up on a GPU).
+/// Sample i has its first number in the i-th part of [0, 1), so that stratified numbers keep their
+/// order. Estimates are right on average over seeds, but every frame and pixel shares the error of
+/// one list, which more samples per pixel do not lower: it falls as 1 / sqrt(length) or better.
+/// pdf_environment stays that of the tables. Throws Error as make_environment_sampler does, and
+/// where length is not positive.
+EnvironmentSampler make_light_list(EnvironmentMap map, int length, std::uint32_t seed);
 
 LightSample sample_environment(const EnvironmentSampler& sampler, glm::vec2 u);
 

@@ -34,6 +34,13 @@ struct Receiver {
     Image<float> occluder_indirect;  // largest cos/r (1/m) over indirect rays that hit, 0: none
 };
 
+/// Direct light as if nothing were in its way, from the same samples as the shadowed; empty images:
+/// not sampled.
+struct Unshadowed {
+    Image<Rgb> real;      // goes with direct e_r and e_rv_real, and equals both where all is open
+    Image<Rgb> virtual_;  // goes with direct e_rv_virtual
+};
+
 /// Per-pixel Monte Carlo estimates of one frame, with the camera that saw them.
 struct NoisyLayers {
     Lens lens;
@@ -47,6 +54,7 @@ struct NoisyLayers {
     Receiver real;                      // R and RV together: the larger cos/r of both modes
     Receiver virtual_;                  // real geometry counts as occluder too
     std::uint64_t dropped_samples = 0;  // non-finite ones, left out of every mean
+    Unshadowed unshadowed;              // empty unless asked for
 };
 
 /// The same terms after filtering, which is what eq. 6.2 combines.

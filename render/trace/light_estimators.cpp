@@ -36,9 +36,14 @@ void add_light_sample(const SamplePass& pass, const Landing& from, const LightSa
     if (shadow.distance() != no_hit && luminance(light.radiance) >= ignored)
         widen(receiver_of(sums, from.kind).occluder_direct,
               occluder_rate(from, light.direction, shadow.distance(), pass.settings));
-    Rgb real_only(0), with_virtual(0), glossy(0);
-    if (shadow.traced && shadow.to_real == no_hit)
-        real_only = light.radiance * (glm::dot(from.normal, light.direction) / light.pdf);
+    Rgb unshadowed(0), real_only(0), with_virtual(0), glossy(0);
+    if (shadow.traced)
+        unshadowed = light.radiance * (glm::dot(from.normal, light.direction) / light.pdf);
+    if (shadow.to_real == no_hit) real_only = unshadowed;
+    if (pass.settings.unshadowed) {
+        (from.kind == LandingKind::real ? sums.unshadowed_real : sums.unshadowed_virtual)
+            .add(unshadowed);
+    }
     if (shadow.to_virtual == no_hit) with_virtual = real_only;
     if (from.kind == LandingKind::real) {
         sums.direct.add(real_only, with_virtual);

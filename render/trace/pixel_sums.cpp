@@ -40,6 +40,10 @@ void store(const PixelSums& sums, int x, int y, NoisyLayers& layers) {
     layers.indirect.e_r.pixels[i] = sums.indirect.e_r.mean();
     layers.indirect.e_rv_real.pixels[i] = sums.indirect.e_rv.mean();
     layers.indirect.e_rv_virtual.pixels[i] = sums.indirect_virtual.mean();
+    if (!layers.unshadowed.real.empty()) {
+        layers.unshadowed.real.pixels[i] = sums.unshadowed_real.mean();
+        layers.unshadowed.virtual_.pixels[i] = sums.unshadowed_virtual.mean();
+    }
     store(sums.real, i, layers.real);
     store(sums.virtual_, i, layers.virtual_);
 }

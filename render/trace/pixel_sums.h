@@ -52,6 +52,7 @@ struct PixelSums {
     ReceiverSums real, virtual_;
     PairedSum direct, indirect;  // on real surfaces
     SampleSum direct_virtual, indirect_virtual, glossy_direct, glossy_indirect, albedo;
+    SampleSum unshadowed_real, unshadowed_virtual;  // left empty unless asked for
     float glossy_bandwidth = 0;
 };
 

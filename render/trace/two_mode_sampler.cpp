@@ -95,6 +95,10 @@ TwoModeResult sample_two_modes(const TwoModeScene& scene, const SamplingSettings
     TwoModeResult result{
         make_noisy_layers(lens, scene.world_from_camera, settings.primary * settings.secondary),
         {}};
+    if (settings.unshadowed) {
+        const Image<Rgb> black(lens.width, lens.height, Rgb(0));
+        result.layers.unshadowed = {black, black};
+    }
     const int rows = tile_rows(lens);
     std::vector<RayCounts> row_rays{std::size_t(rows)};
     std::vector<std::uint64_t> row_dropped(std::size_t(rows), 0);

@@ -21,6 +21,7 @@ struct SamplingSettings {
     float occluder_floor = 0.02f;  // share of depth: occluders nearer than this count as this far
     float ignored_luminance =
         0.1f;  // occluders of light below this share of the mean do not narrow the filter
+    bool unshadowed = false;  // also sum direct light without shadows; nothing else changes
 };
 
 /// Throws Error unless counts are positive and shares within 0..1.

@@ -194,6 +194,20 @@ TEST(PixelFootprint, GrowsWithDepth) {
     EXPECT_EQ(footprint(0, 0), 0.0f);
 }
 
+TEST(Bandlimits, DurandsDoNotKnowTheLight) {
+    EXPECT_EQ(durand_bandwidth({}), 0);
+    EXPECT_DOUBLE_EQ(durand_bandwidth({2, 3, 4}), 2 * 2 + 3);  // B_f = 1
+    EXPECT_DOUBLE_EQ(durand_bandwidth({2, 3, 4, 10}), (2 * 2 + 3) * 10);
+    EXPECT_DOUBLE_EQ(durand_bandwidth({-2, 3, 4}), 1);
+    EXPECT_EQ(durand_bandwidth({1, 2, 100}), durand_bandwidth({1, 2, 0}));
+    FilterSettings durand;
+    durand.constants = FilterConstants::durand;
+    for (const LightKind light : {LightKind::direct, LightKind::indirect})
+        EXPECT_DOUBLE_EQ(inverse_width({2, 3, 4}, light, durand), 14);  // eq. 6.23
+    EXPECT_EQ(sample_factor(256, durand), 1);
+    EXPECT_EQ(durand_bandwidth({0, INFINITY, 0}), largest_bandwidth);
+}
+
 TEST(FilterSettings, AreRefusedOutOfRangeByName) {
     FilterSettings s;
     s.normal_stop_deg = 90;
