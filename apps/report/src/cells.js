@@ -1,5 +1,6 @@
 // Cells of a work: their errors, times and names, which are shown, and the front among them.
 import { isFigure } from './format.js';
+import { plainLook } from './palette.js';
 
 export const errors = {
     rmse: {
@@ -107,7 +108,7 @@ export function indexWork(report, work, looks) {
         ...work,
         cells,
         methods: new Map((report.methods ?? []).map((method) => [method.name, method])),
-        looks,
+        lookOf: (method) => looks.get(method) ?? plainLook,
         byId: new Map(cells.map((cell) => [cell.id, cell])),
         temporalMethods: new Set(cells.filter((cell) => cell.temporal).map((cell) => cell.method)),
     };

@@ -1,7 +1,7 @@
 // A chart that is drawn again whenever its width changes, and what all charts have in common.
 import * as Plot from '@observablehq/plot';
 import { h } from './dom.js';
-import { figure } from './format.js';
+import { tick as tickText } from './format.js';
 
 /** A frame for `draw(width)`, which returns an SVG; `redraw` after a change of what is drawn. */
 export function chart(label, draw) {
@@ -32,11 +32,11 @@ export function plot({ x, y, marks, ...options }) {
         x.type === 'log'
             ? [
                   Plot.gridX(x.ticks),
-                  Plot.axisX(x.ticks, { text: figure, label: x.label, labelArrow: 'none' }),
+                  Plot.axisX(x.ticks, { text: tickText, label: x.label, labelArrow: 'none' }),
               ]
             : [],
         y.type === 'log'
-            ? [Plot.gridY(y.ticks), Plot.axisY(y.ticks, { text: figure, label: null })]
+            ? [Plot.gridY(y.ticks), Plot.axisY(y.ticks, { text: tickText, label: null })]
             : [],
     ];
     const svg = Plot.plot({

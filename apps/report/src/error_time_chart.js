@@ -21,11 +21,7 @@ function tipText(work, point, choice) {
 }
 
 function seriesMarks(work, { method, temporal, points }) {
-    const look = work.looks.get(method) ?? {
-        colour: 'var(--ink-soft)',
-        symbol: 'circle',
-        strokeWidth: 1.5,
-    };
+    const look = work.lookOf(method);
     return [
         Plot.ruleY(points, {
             x1: (p) => p.time.min,
@@ -63,7 +59,7 @@ function frontMarks(work, front) {
         Plot.dot(front, { ...xy, r: 8, fill: 'var(--front)' }),
         Plot.dot(
             front.filter((point) => point.cell.knob !== 'samples'),
-            { ...xy, r: 3, fill: (point) => work.looks.get(point.cell.method)?.colour },
+            { ...xy, r: 3, fill: (point) => work.lookOf(point.cell.method).colour },
         ),
     ];
 }

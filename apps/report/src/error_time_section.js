@@ -50,7 +50,7 @@ function legend(work, hidden, onchange) {
             const button = h(
                 'button',
                 { type: 'button', 'aria-pressed': 'true', title: method?.summary },
-                swatch(work.looks.get(name)),
+                swatch(work.lookOf(name)),
                 method?.title ?? name,
             );
             button.addEventListener('click', () => {

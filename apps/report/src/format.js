@@ -2,7 +2,11 @@
 
 export const dash = '–';
 
-const plain = new Intl.NumberFormat('en', { maximumSignificantDigits: 3, useGrouping: false });
+const short = new Intl.NumberFormat('en', { maximumSignificantDigits: 3, useGrouping: false });
+const precise = new Intl.NumberFormat('en', {
+    minimumSignificantDigits: 3,
+    maximumSignificantDigits: 3,
+});
 const grouped = new Intl.NumberFormat('en', { maximumFractionDigits: 0 });
 const superscripts = {
     '-': '⁻',
@@ -20,15 +24,20 @@ const superscripts = {
 
 export const isFigure = (value) => typeof value === 'number' && Number.isFinite(value);
 
-/** 0.0123, 412, 12345, 3.2 · 10⁻⁵. */
-export function figure(value) {
+function shown(value, format) {
     if (!isFigure(value)) return dash;
     const size = Math.abs(value);
     if (size >= 1000) return grouped.format(value);
-    if (size === 0 || size >= 1e-3) return plain.format(value);
+    if (size === 0 || size >= 1e-3) return format.format(value);
     const [digits, exponent] = value.toExponential(1).split('e');
     return `${digits} · 10${[...String(Number(exponent))].map((sign) => superscripts[sign]).join('')}`;
 }
+
+/** 0.0120, 412, 12,345, 3.2 · 10⁻⁵; whole numbers as they are. */
+export const figure = (value) => shown(value, Number.isInteger(value) ? short : precise);
+
+/** As a figure, without zeros at its end: 0.05. */
+export const tick = (value) => shown(value, short);
 
 export const withUnit = (value, unit) => (isFigure(value) ? `${figure(value)}\u00a0${unit}` : dash);
 

@@ -4,7 +4,7 @@ import { cellName } from './cells.js';
 import { chart, frameAxis, nothing, plot } from './chart.js';
 import { choices, segments } from './choices.js';
 import { h, section } from './dom.js';
-import { figure, isFigure } from './format.js';
+import { figure, isFigure, tick } from './format.js';
 import { seriesColour } from './palette.js';
 
 const figures = {
@@ -63,7 +63,7 @@ function draw(work, chosen, key, label, width) {
             grid: true,
             zero: key !== 'psnr',
             nice: true,
-            tickFormat: figure,
+            tickFormat: tick,
             ticks: 5,
         },
         marks: [

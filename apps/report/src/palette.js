@@ -6,6 +6,9 @@ const colours = 7;
 
 export const seriesColour = (index) => `var(--series-${(index % colours) + 1})`;
 
+/** The look of a method that the data does not list. */
+export const plainLook = { colour: 'var(--ink-soft)', symbol: 'circle', strokeWidth: 1.5 };
+
 /** The look of each method by name: unfiltered in ink, Inlay's own first, everything else after it. */
 export function methodLooks(methods) {
     const looks = new Map();

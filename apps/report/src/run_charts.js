@@ -2,7 +2,7 @@
 import * as Plot from '@observablehq/plot';
 import { chart, frameAxis, nothing, plot, swatches } from './chart.js';
 import { section } from './dom.js';
-import { count, figure, isFigure } from './format.js';
+import { count, figure, isFigure, tick } from './format.js';
 import { seriesColour } from './palette.js';
 
 const stages = ['load', 'slam', 'plan', 'trace', 'filter', 'composite', 'write'];
@@ -54,7 +54,7 @@ function drawStacked(rows, palette, label, width) {
             ...frameAxis(numbers, width),
             domain: [Math.min(...numbers) - half, Math.max(...numbers) + half],
         },
-        y: { label, labelArrow: 'none', grid: true, nice: true, tickFormat: figure, ticks: 6 },
+        y: { label, labelArrow: 'none', grid: true, nice: true, tickFormat: tick, ticks: 6 },
         marks: [
             Plot.rectY(
                 rows,

@@ -14,11 +14,14 @@ async function box(page, selector) {
     );
 }
 
-/** A picture of the comparison as it is seen. */
+/** The comparison as it is seen, but for the handle. */
 async function comparison(page) {
     const { x, y, width, height } = await box(page, '.comparison');
     const top = await page.evaluate('scrollY');
-    return page.screenshot({ x, y: y + top, width, height });
+    await page.evaluate(`${handle}.style.opacity = 0`);
+    const picture = await page.screenshot({ x, y: y + top, width, height });
+    await page.evaluate(`${handle}.style.opacity = ''`);
+    return picture;
 }
 
 /** In every chart the marks of data, which axes and grids are not. */

@@ -1,5 +1,5 @@
 // Opens report pages in Chromium and checks what a reader would see.
-// usage: node page_test.mjs (accuracy|replay|refusal FILE)...
+// usage: node page_test.mjs (accuracy|replay|sparse|refusal FILE)...
 import assert from 'node:assert/strict';
 import { pathToFileURL } from 'node:url';
 import { startBrowser } from './browser.mjs';
@@ -59,6 +59,13 @@ async function showsTheOtherWork(page) {
     assert.doesNotMatch(await text(page, 'main'), /NaN|undefined|null|Infinity/);
 }
 
+/** A page of which most figures are missing. */
+async function showsWhatThereIs(page) {
+    const shown = await text(page, 'main');
+    assert.match(shown, /–/);
+    assert.doesNotMatch(shown, /NaN|undefined|null|Infinity/);
+}
+
 async function drawsEveryFrame(page) {
     assert.equal(
         await page.evaluate(
@@ -107,6 +114,7 @@ const checks = {
         ...always,
     ],
     replay: [common.chartsAreDrawn, drawsEveryFrame, givesThePlan, ...bench, ...always],
+    sparse: [showsWhatThereIs, common.fitsAPhone, common.nothingIsWrong],
     refusal: [
         async function saysWhyItShowsNothing(page) {
             assert.match(await text(page, '#page'), /version 2, this page reads version 1/);
@@ -120,9 +128,12 @@ async function checkPage(browser, kind, file) {
     const page = await browser.openPage();
     await page.size(1280, 900);
     await page.open(url);
-    if (kind !== 'refusal')
+    if (kind in charts)
         await page.evaluate(
-            "new Promise((done) => { const wait = () => (document.querySelector('.inset canvas') ? done(true) : setTimeout(wait, 20)); wait(); })",
+            `new Promise((done) => {
+                const look = () => document.querySelector('.inset canvas') ? done(true) : setTimeout(look, 20);
+                look();
+            })`,
         );
     await page.settle();
     let failures = 0;

@@ -66,11 +66,24 @@ std::string sample_page(const TemporaryFolder& folder, const std::string& kind) 
     return written_page(folder, kind, file_text(file));
 }
 
+/// One cell without most of its figures, of a method that is not listed.
+constexpr const char* sparse_accuracy = R"({"version": 1, "methods": [], "works": [{
+    "name": "one", "title": "One", "kind": "scene", "width": 8, "height": 6, "frames": [3],
+    "environment_bandwidth": null, "fronts": {"rmse": ["a"], "flip": []}, "pictures": [],
+    "equal_error": [], "equal_time": [], "blame": null, "estimate": null, "cells": [
+      {"id": "a", "knob": "samples", "value": "1", "method": "m", "temporal": false, "samples": 1,
+       "wall_ms": {"total": {"median": 3.5, "min": 3, "max": 4}}, "failed": null, "truth": null,
+       "converged": {"rmse_influenced": 0.1, "flip": null},
+       "frames": [{"frame": 3, "rmse_influenced": 0.1, "flip": null, "ms": null}]}]}]})";
+
 TEST(ReportPage, ShowsItsDataInABrowser) {
     const TemporaryFolder folder;
-    const std::string log = run_script("page_test.mjs accuracy " + sample_page(folder, "accuracy") +
-                                       " replay " + sample_page(folder, "replay") + " refusal " +
-                                       written_page(folder, "refusal", R"({"version": 2})"));
+    const std::string log =
+        run_script("page_test.mjs accuracy " + sample_page(folder, "accuracy") + " replay " +
+                   sample_page(folder, "replay") + " sparse " +
+                   written_page(folder, "sparse_accuracy", sparse_accuracy) + " sparse " +
+                   written_page(folder, "sparse_replay", R"({"version": 1, "kind": "replay"})") +
+                   " refusal " + written_page(folder, "refusal", R"({"version": 2})"));
     EXPECT_THAT(log, testing::HasSubstr("ok      accuracy: nothingIsWrong"));
     EXPECT_THAT(log, testing::HasSubstr("ok      replay: nothingIsWrong"));
     EXPECT_THAT(log, testing::HasSubstr("ok      refusal: saysWhyItShowsNothing"));
