@@ -1,6 +1,6 @@
 // Which stage the error comes from, and how well the error is estimated without a truth.
 import * as Plot from '@observablehq/plot';
-import { chart, logAxis, plot, swatches } from './chart.js';
+import { chart, logAxis, plot, swatches, tip } from './chart.js';
 import { h, section } from './dom.js';
 import { figure, percent } from './format.js';
 import { tiles } from './page_head.js';
@@ -15,7 +15,7 @@ function drawBlame(rows, colours, width) {
         marginTop: 8,
         marginLeft: 64,
         x: {
-            label: 'share of the error (%)',
+            label: 'share of the mean square error (%)',
             labelArrow: 'none',
             grid: true,
             percent: true,
@@ -39,7 +39,8 @@ function drawBlame(rows, colours, width) {
                     stroke: 'var(--surface)',
                     tip: { format: { fill: false } },
                     title: (row) =>
-                        `${row.stage}, frame ${row.frame}\n${percent(row.share)} of RMSE ${figure(row.rmse)}\nRMSE with the true stage: ${figure(row.swapped_rmse)}`,
+                        `${row.stage}, frame ${row.frame}\n${percent(row.share)} of the mean square error\n` +
+                        `RMSE ${figure(row.rmse)}, with the true stage ${figure(row.swapped_rmse)}`,
                 }),
             ),
             Plot.ruleX([0]),
@@ -66,7 +67,8 @@ export function blameSection(work) {
     return section(
         'blame',
         'Where the error comes from',
-        'One stage at a time is given its true answer; the error that goes away is its share. A negative share: the true answer alone makes it worse.',
+        'One stage at a time is given its true answer; the mean square error that goes away is its ' +
+            'share. A negative share: the true answer alone makes it worse.',
         swatches([...colours]),
         bars.element,
         h(
@@ -83,6 +85,16 @@ export function blameSection(work) {
                         title: 'RMSE, stage true',
                         unit: 'relative radiance',
                         value: (row) => figure(row.swapped_rmse),
+                    },
+                    {
+                        title: 'RMSE, all stages true',
+                        unit: 'relative radiance',
+                        value: (row) => figure(row.best_rmse),
+                    },
+                    {
+                        title: 'RMSE of the photograph',
+                        unit: 'relative radiance',
+                        value: (row) => figure(row.photograph_rmse),
                     },
                     { title: 'Share', value: (row) => percent(row.share) },
                 ],
@@ -118,16 +130,12 @@ function drawEstimate(points, width) {
                 fill: 'var(--series-1)',
                 fillOpacity: 0.75,
             }),
-            Plot.tip(
-                points,
-                Plot.pointer({
-                    x: 'estimated_rmse',
-                    y: 'true_rmse',
-                    fontSize: 12,
-                    title: (point) =>
-                        `frame ${point.frame}\nestimated ${figure(point.estimated_rmse)}\ntrue ${figure(point.true_rmse)}`,
-                }),
-            ),
+            tip(points, {
+                x: 'estimated_rmse',
+                y: 'true_rmse',
+                title: (point) =>
+                    `frame ${point.frame}\nestimated ${figure(point.estimated_rmse)}\ntrue ${figure(point.true_rmse)}`,
+            }),
         ],
     });
 }
@@ -152,12 +160,12 @@ export function estimateSection(work) {
                 [
                     'Rank correlation',
                     figure(work.estimate.rank_correlation),
-                    '1: frames are ordered by their true error',
+                    'Spearman, of the squared errors of pixels; 1: in the right order',
                 ],
                 [
                     'Calibration',
                     figure(work.estimate.calibration),
-                    '1: neither too low nor too high',
+                    'estimated over true mean square; 1: neither too low nor too high',
                 ],
             ]),
         ),

@@ -60,6 +60,13 @@ export function plot({ x, y, marks, ...options }) {
     return y.label ? h('div', {}, h('p', { class: 'axis-title' }, y.label), svg) : svg;
 }
 
+/** What the pointer is nearest to, with its `title`. */
+export const tip = (data, { x, y, title }) =>
+    Plot.tip(
+        data,
+        Plot.pointer({ x, y, title, fontSize: 12, lineHeight: 1.35, stroke: 'var(--line)' }),
+    );
+
 /** Where nothing can be drawn: a sentence in the chart's place. */
 export const nothing = (sentence) => h('p', { class: 'nothing' }, sentence);
 

@@ -1,7 +1,7 @@
 // Error against time on logarithmic axes: a line per method over the Pareto front with its names.
 import * as Plot from '@observablehq/plot';
 import { cellName, errorAxis, errors, frontOf, seriesOf, shownPoints } from './cells.js';
-import { logAxis, margin, nothing, plot } from './chart.js';
+import { logAxis, margin, nothing, plot, tip } from './chart.js';
 import { figure, withUnit } from './format.js';
 import { placeLabels } from './place_labels.js';
 
@@ -51,8 +51,9 @@ function frontMarks(work, front) {
     return [
         Plot.line(front, {
             ...xy,
+            curve: 'step-after', // until the next point is affordable, this one is the best
             stroke: 'var(--front)',
-            strokeWidth: 12,
+            strokeWidth: 8,
             strokeLinejoin: 'round',
             strokeLinecap: 'round',
         }),
@@ -114,7 +115,7 @@ export function drawErrorTime(work, choice, hidden, width) {
             ...frontMarks(work, front),
             ...series.flatMap((each) => seriesMarks(work, each)),
             nameMarks(work, front, { x, y }, size),
-            Plot.tip(drawn, Plot.pointer({ ...xy, title, fontSize: 12 })),
+            tip(drawn, { ...xy, title }),
         ],
     });
 }

@@ -48,7 +48,7 @@ export const percent = (fraction) =>
 
 /** A factor; `bound` where it is known to be at least that. */
 export const factor = (value, bound = false) =>
-    isFigure(value) ? `${bound ? '≥ ' : ''}${figure(value)}×` : dash;
+    isFigure(value) ? `${bound ? '≥ ' : ''}${shown(value, precise)}×` : dash;
 
 /** Counts of rays or pixels: 950, 12.3 k, 4.56 M. */
 export function count(value) {

@@ -1,7 +1,7 @@
 // Error and time of chosen cells over the frames.
 import * as Plot from '@observablehq/plot';
 import { cellName } from './cells.js';
-import { chart, frameAxis, nothing, plot } from './chart.js';
+import { chart, frameAxis, nothing, plot, tip } from './chart.js';
 import { choices, segments } from './choices.js';
 import { h, section } from './dom.js';
 import { figure, isFigure, tick } from './format.js';
@@ -76,15 +76,11 @@ function draw(work, chosen, key, label, width) {
                 r: points.length > 200 ? 1.5 : 3,
                 fill: 'colour',
             }),
-            Plot.tip(
-                points,
-                Plot.pointer({
-                    x: 'frame',
-                    y: key,
-                    title: (each) => `${each.name}\nframe ${each.frame}: ${figure(each[key])}`,
-                    fontSize: 12,
-                }),
-            ),
+            tip(points, {
+                x: 'frame',
+                y: key,
+                title: (each) => `${each.name}\nframe ${each.frame}: ${figure(each[key])}`,
+            }),
         ],
     });
 }

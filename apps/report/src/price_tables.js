@@ -1,5 +1,4 @@
 // What unfiltered sampling takes for the same error, and what other methods reach in the same time.
-import { cellName } from './cells.js';
 import { nothing } from './chart.js';
 import { h, section } from './dom.js';
 import { dash, factor, figure, isFigure } from './format.js';
@@ -13,8 +12,9 @@ const methodName = (work, row) =>
         h('span', { class: 'tag' }, row.temporal ? 'previous frame' : 'one frame'),
     );
 
-const bounded = (value, beyond) =>
-    isFigure(value) ? `${beyond ? '≥ ' : ''}${figure(value)}` : dash;
+/** A figure, with the sign of a bound where it is one. */
+const bounded = (value, isBound, sign = '≥') =>
+    isFigure(value) ? `${isBound ? `${sign} ` : ''}${figure(value)}` : dash;
 
 function equalError(work) {
     const rows = work.equal_error ?? [];
@@ -29,7 +29,7 @@ function equalError(work) {
                 text: true,
                 value: (row) =>
                     work.byId.has(row.anchor)
-                        ? `${work.byId.get(row.anchor).samples} spp`
+                        ? `${work.byId.get(row.anchor).samples}\u00a0spp`
                         : (row.anchor ?? dash),
             },
             { title: 'RMSE', unit: 'relative radiance', value: (row) => figure(row.error) },
@@ -44,6 +44,7 @@ function equalError(work) {
                 unit: 'spp',
                 value: (row) => bounded(row.unfiltered_samples, row.beyond),
             },
+            { title: 'FLIP, filtered to unfiltered', value: (row) => factor(row.flip_ratio) },
             {
                 title: 'Speed-up',
                 value: (row) => bar(factor(row.speed_up, row.beyond), row.speed_up / largest),
@@ -62,8 +63,12 @@ function equalTime(work) {
         [
             { title: 'Method', text: true, value: (row) => methodName(work, row) },
             { title: 'Time', unit: 'ms', value: (row) => figure(row.ms) },
-            { title: 'RMSE', unit: 'relative radiance', value: (row) => figure(row.rmse) },
-            { title: 'FLIP', unit: '0 to 1', value: (row) => figure(row.flip) },
+            {
+                title: 'RMSE',
+                unit: 'relative radiance',
+                value: (row) => bounded(row.rmse, row.beyond, '≤'),
+            },
+            { title: 'FLIP', unit: '0 to 1', value: (row) => bounded(row.flip, row.beyond, '≤') },
             {
                 title: 'RMSE to anchor',
                 value: (row) => bar(factor(row.rmse_ratio), row.rmse_ratio / largest),
@@ -78,11 +83,15 @@ function equalTime(work) {
 }
 
 export function priceSection(work) {
-    const anchor = work.byId.get(work.equal_error?.[0]?.anchor);
+    const anchor = work.equal_time?.find((row) => row.rmse_ratio === 1 && row.flip_ratio === 1);
+    const name = anchor ? ` (${work.methods.get(anchor.method)?.title ?? anchor.method})` : '';
     return section(
         'price',
         'Equal error, equal time',
-        `“≥”: unfiltered sampling did not come as close with its largest number of samples, so the figure is a lower bound. Ratios above 1×: the anchor${anchor ? ` (${cellName(work, anchor)})` : ''} is better.`,
+        'Equal error: “≥” marks a lower bound, where unfiltered sampling did not come as close with ' +
+            'its largest number of samples; FLIP below 1× looks closer than the unfiltered picture. ' +
+            `Equal time: above 1× the anchor${name} is better; “≤” marks a method that was not ` +
+            'measured at so long a time.',
         equalError(work),
         equalTime(work),
     );

@@ -1,6 +1,6 @@
 // Charts over the frames of one run.
 import * as Plot from '@observablehq/plot';
-import { chart, frameAxis, nothing, plot, swatches } from './chart.js';
+import { chart, frameAxis, nothing, plot, swatches, tip } from './chart.js';
 import { section } from './dom.js';
 import { count, figure, isFigure, tick } from './format.js';
 import { seriesColour } from './palette.js';
@@ -106,15 +106,11 @@ function drawLines(rows, palette, label, width) {
                 r: rows.length > 400 ? 1 : 2.5,
                 fill: (row) => palette.get(row.name),
             }),
-            Plot.tip(
-                rows,
-                Plot.pointer({
-                    x: 'frame',
-                    y: 'value',
-                    title: (row) => `frame ${row.frame}\n${words(row.name)}: ${count(row.value)}`,
-                    fontSize: 12,
-                }),
-            ),
+            tip(rows, {
+                x: 'frame',
+                y: 'value',
+                title: (row) => `frame ${row.frame}\n${words(row.name)}: ${count(row.value)}`,
+            }),
         ],
     });
 }

@@ -40,6 +40,7 @@ async function followsTheChoice(page) {
 
 async function showsBoundsAndDashes(page) {
     assert.match(await text(page, '#price'), /≥ \d/);
+    assert.match(await text(page, '#price'), /≤ 0\.\d/);
     const ratios = await page.evaluate(
         "[...document.querySelectorAll('#price table:last-child td:last-child')].map((each) => each.innerText.trim())",
     );

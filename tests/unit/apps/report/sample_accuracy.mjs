@@ -45,6 +45,7 @@ function equalError(cells) {
                 filtered_ms: anchor.wall_ms.total.median,
                 speed_up: unfiltered / anchor.wall_ms.total.median,
                 unfiltered_samples: samples,
+                flip_ratio: 0.8 + samples / 2000,
                 beyond,
             };
         })
@@ -54,16 +55,17 @@ function equalError(cells) {
 function equalTime(cells) {
     const anchor = find(cells, 'axis_aligned', 16, true);
     return methods.map((method) => {
-        const same = find(cells, method.name, 16);
+        const same = find(cells, method.name, 16, Boolean(method.temporal));
         const { rmse_influenced: rmse, flip } = same.converged;
         return {
             method: method.name,
-            temporal: false,
+            temporal: same.temporal,
             ms: anchor.wall_ms.total.median,
             rmse,
             flip,
             rmse_ratio: rmse / anchor.converged.rmse_influenced,
             flip_ratio: method.name === 'a_trous' ? null : flip / anchor.converged.flip,
+            beyond: method.name === 'fixed_gaussian',
         };
     });
 }
@@ -97,11 +99,11 @@ function picturesOf(cells, width, height) {
 
 function blame() {
     const shares = {
-        'camera pose': 0.21,
-        'fused depth': 0.34,
-        lighting: 0.26,
-        sampling: 0.12,
-        'unseen geometry': 0.07,
+        poses: 0.21,
+        geometry: 0.34,
+        sampling: 0.26,
+        filter: 0.12,
+        composite: 0.07,
     };
     return frames.slice(0, 5).flatMap((frame, i) =>
         Object.entries(shares).map(([stage, share], j) => {
@@ -112,7 +114,9 @@ function blame() {
                 stage,
                 share: i === 2 && j === 4 ? -0.04 : here,
                 rmse,
-                swapped_rmse: rmse * (1 - here),
+                swapped_rmse: rmse * Math.sqrt(1 - here),
+                best_rmse: rmse * 0.3,
+                photograph_rmse: 0.21,
             };
         }),
     );
