@@ -53,9 +53,10 @@ const patience = 3000; // ms, until Chromium is ended by force
 
 /** Starts Chromium: `openPage()` gives a page, `close()` ends it and removes its profile. */
 export async function startBrowser() {
+    const chromium = chromiumPath();
     const profile = mkdtempSync(join(tmpdir(), 'inlay-chromium-'));
     const process_ = spawn(
-        chromiumPath(),
+        chromium,
         [
             '--headless=new',
             '--no-sandbox',
