@@ -1,8 +1,7 @@
 // `inlay record`: a synthetic recording whose truth is known.
-#include "composite/record/record_scene.h"
+#include "composite/record/film_scene.h"
 #include "composite/write/atomic_file.h"
 #include "recordings/base/check.h"
-#include "render/scene/place_object.h"
 #include "render/scene/scene_file.h"
 
 #include "apps/inlay/command.h"
@@ -10,13 +9,17 @@
 #include "apps/inlay/interrupt.h"
 #include "apps/inlay/options.h"
 #include "apps/inlay/progress.h"
+#include "apps/inlay/render_options.h"
 #include "apps/inlay/scene_copy.h"
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
+#include <cstdio>
 #include <filesystem>
+#include <iostream>
 #include <memory>
+#include <optional>
 
 namespace inlay {
 namespace {
@@ -45,34 +48,15 @@ fs::path scene_path(const std::string& name) {
     return own;
 }
 
-Lens lens_of(const View& view, const std::string& size) {
-    if (size.empty()) return view.lens;
+/// None for "", which stands for the scene's own size.
+std::optional<glm::ivec2> size_of(const std::string& size) {
+    if (size.empty()) return std::nullopt;
     int width = 0, height = 0, read = 0;
     const int fields = std::sscanf(size.c_str(), "%dx%d%n", &width, &height, &read);
     require(fields == 2 && read == int(size.size()) && width > 0 && height > 0 && width <= 8192 &&
                 height <= 8192,
             "--size " + size + ": expected WIDTHxHEIGHT in px, as in 640x480", ExitCode::usage);
-    return scaled(view.lens, width, height);
-}
-
-FilmedScene film_of(const RecordOptions& o, const fs::path& file, const SceneFile& scene) {
-    for (const std::string& warning : scene.warnings)
-        spdlog::warn("{}", warning);
-    require(scene.view.has_value(), file.string() + ": `record` needs a 'view'");
-    const auto no_surface = [&](int) -> SurfaceMap {
-        throw Error(ExitCode::bad_data,
-                    file.string() + ": 'place' needs a recording; give the object a 'transform'");
-    };
-    FilmedScene film;
-    film.scene = resolve_placements(scene, no_surface, scene.view->up);
-    film.environment = load_environment(scene.environment, scene.view->up, {0, 0, 1}).map;
-    film.lens = lens_of(*scene.view, o.size);
-    film.up = scene.view->up;
-    std::vector<PathKey> path = scene.path;
-    if (path.empty()) path.push_back({0, scene.view->world_from_camera});
-    film.camera = keyframe_path(std::move(path));
-    if (!o.still) film.camera = hand_held(film.camera, {});
-    return film;
+    return glm::ivec2(width, height);
 }
 
 std::set<int> frames_of(const std::string& list, int frames) {
@@ -102,28 +86,41 @@ void write_record_json(const fs::path& folder, const RecordOptions& o) {
     write_text(folder / "record.json", json.dump(2) + "\n");
 }
 
-/// Returns how many frames were finished; says so where it is not all of them.
-int record_frames(const FilmedScene& film, const RecordOptions& o, int wanted) {
+/// Says so where not all of the wanted frames were finished.
+RecordResult record_frames(const FilmedScene& film, const RecordOptions& o, int wanted) {
     catch_interrupts();
-    int finished = 0;
+    RecordResult result;
     {
         Progress progress("frames", wanted, o.common.quiet);
-        finished = record_scene(film, o.record, o.out,
-                                {[&](int done) { progress.advance_to(done); }, interrupted});
+        result = record_scene(film, o.record, o.out,
+                              {[&](int done) { progress.advance_to(done); }, interrupted});
     }
-    if (finished < wanted)
+    if (result.finished < wanted)
         spdlog::warn(
             "interrupted: {} of {} frames are finished and stay in {}, which is incomplete (it has "
             "no record.json); run the same command again to make it whole",
-            finished, wanted, o.out);
-    return finished;
+            result.finished, wanted, o.out);
+    return result;
+}
+
+void print_result(const RecordOptions& o, const RecordResult& result) {
+    if (o.common.json) {
+        const nlohmann::ordered_json json{{"out", o.out},
+                                          {"frames", result.finished},
+                                          {"dropped_samples", result.dropped_samples}};
+        std::cout << json.dump(2) << "\n";
+        return;
+    }
+    warn_of_non_finite(result.dropped_samples, 0);
 }
 
 int run(RecordOptions& o) {
     apply(o.common);
     const fs::path file = scene_path(o.scene);
     const SceneFile scene = load_scene_file(file, {o.assets.begin(), o.assets.end()});
-    const FilmedScene film = film_of(o, file, scene);
+    for (const std::string& warning : scene.warnings)
+        spdlog::warn("{}", warning);
+    const FilmedScene film = film_scene(scene, file.string(), {size_of(o.size), !o.still});
     o.record.seed = o.common.seed;
     o.record.sensor_noise = !o.no_noise;
     o.record.truth_frames = frames_of(o.truth, o.record.frames);
@@ -136,8 +133,10 @@ int run(RecordOptions& o) {
     make_folder(folder);
     copy_scene(file, scene, film.environment, folder);
     const int wanted = wanted_frames(o.record);
-    if (record_frames(film, o, wanted) < wanted) return int(ExitCode::interrupted);
+    const RecordResult result = record_frames(film, o, wanted);
+    if (result.finished < wanted) return int(ExitCode::interrupted);
     if (o.record.written_frames.empty()) write_record_json(folder, o);
+    print_result(o, result);
     return 0;
 }
 

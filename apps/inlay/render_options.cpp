@@ -27,11 +27,11 @@ void add_render_options(CLI::App& subcommand, RenderOptions& o) {
     subcommand.add_option("--samples", o.samples,
                           "samples per pixel in all: 4 primary x N/4 secondary (below 4: N x 1)");
     subcommand.add_option("--filter", o.filter, "the axis-aligned filter")
-        ->check(CLI::IsMember({"on", "off"}));
+        ->check(CLI::IsMember(setting_words("filter.enabled")));
     subcommand.add_option("--constants", o.constants, "of the filter")
-        ->check(CLI::IsMember({"corrected", "thesis"}));
+        ->check(CLI::IsMember(setting_words("filter.constants")));
     subcommand.add_option("--temporal", o.temporal, "filter with the frame before")
-        ->check(CLI::IsMember({"on", "off"}));
+        ->check(CLI::IsMember(setting_words("filter.temporal")));
     subcommand.add_option("--set", o.set, "name=value of any setting; may be given several times")
         ->allow_extra_args(false);
     subcommand.add_flag("--print-settings", o.print_settings, "list every setting and stop");

@@ -212,13 +212,13 @@ std::function<int()> add_replay(CLI::App& subcommand) {
         .add_option("--poses", o->poses,
                     "tracked (default), or recorded: a frame without a usable recorded pose is "
                     "lost, and shows the photograph alone")
-        ->check(CLI::IsMember({"tracked", "recorded"}));
+        ->check(CLI::IsMember(setting_words("slam.poses")));
     subcommand
         .add_option("--geometry", o->geometry,
                     "what rays meet of the real scene: screen|map|model: this frame's surface "
                     "map marched in the image, the same as triangles, or the fused model as "
                     "triangles (default)")
-        ->check(CLI::IsMember({"screen", "map", "model"}));
+        ->check(CLI::IsMember(setting_words("geometry.kind")));
     subcommand.add_option("--video", o->video, "also make a video, as FILE.mp4");
     subcommand.add_option("--shard", o->shard, "I/N: only the I-th of N runs of frames");
     subcommand.add_flag("--resume", o->resume, "go on with the run that the folder holds");

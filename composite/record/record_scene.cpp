@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <optional>
 #include <string>
 
 namespace inlay {
@@ -75,28 +76,32 @@ void write_picture(const fs::path& folder, const std::string& stem, const Pictur
 
 bool stopped(const RecordWatch& watch) { return watch.asked_to_stop && watch.asked_to_stop(); }
 
-/// False where it was asked to stop before the last of its three files.
-bool write_truth(const fs::path& truth, FilmSet& set, const RecordSettings& settings, int frame,
-                 const RecordWatch& watch) {
+/// Returns the samples that were dropped; none where it was asked to stop before its last file.
+std::optional<std::uint64_t> write_truth(const fs::path& truth, FilmSet& set,
+                                         const RecordSettings& settings, int frame,
+                                         const RecordWatch& watch) {
     const FilmedScene& film = set.film;
     const double t = time_of(settings, frame);
     const std::string stem = fmt::format("{:06d}", frame);
     const PictureView view{film.lens, film.camera(t), settings.seed + truth_seed_offset,
                            std::uint32_t(frame)};
+    std::uint64_t dropped = 0;
     const auto trace = [&](const EmbreeScene& objects, const char* kind) {
         if (stopped(watch)) return false;
-        write_picture(truth / kind, stem,
-                      trace_picture(objects, set.environment, view, settings.truth_samples));
+        const Picture picture =
+            trace_picture(objects, set.environment, view, settings.truth_samples);
+        dropped += picture.dropped_samples;
+        write_picture(truth / kind, stem, picture);
         return true;
     };
     const EmbreeScene real = set.structures.place(film.scene, t, true);
     if (!trace(real, "recorded") || !trace(set.structures.place(film.scene, t), "composite"))
-        return false;
+        return std::nullopt;
     const Image<float> depth = trace_depth(real, film.lens, view.world_from_camera);
     ExrFile exr;
     exr.layers.push_back(value_layer("Z", depth));
     write_exr(truth / "depth" / (stem + ".exr"), exr);
-    return true;
+    return dropped;
 }
 
 void write_frame(const fs::path& folder, const RecordedFrame& recorded, int frame) {
@@ -147,6 +152,7 @@ RecordedFrame film_frame(FilmSet& set, const RecordSettings& settings, int frame
     const Picture picture = trace_picture(real, set.environment, view, settings.samples);
     RecordedFrame recorded;
     recorded.color = encode(picture.radiance);
+    recorded.dropped_samples = picture.dropped_samples;
     recorded.exact_depth = trace_depth(real, film.lens, view.world_from_camera);
     const Image<float> measured =
         settings.sensor_noise
@@ -157,8 +163,8 @@ RecordedFrame film_frame(FilmSet& set, const RecordSettings& settings, int frame
     return recorded;
 }
 
-int record_scene(const FilmedScene& film, const RecordSettings& settings, const fs::path& folder,
-                 const RecordWatch& watch) {
+RecordResult record_scene(const FilmedScene& film, const RecordSettings& settings,
+                          const fs::path& folder, const RecordWatch& watch) {
     validate(settings);
     for (const char* sub : {"rgb", "depth", "truth/recorded", "truth/composite", "truth/depth"})
         make_folder(folder / sub);
@@ -167,18 +173,22 @@ int record_scene(const FilmedScene& film, const RecordSettings& settings, const 
     write_camera(folder, film, settings);
     write_environment(folder / "truth", film.environment);
     FilmSet set = prepare_film(film);
-    int finished = 0;
+    RecordResult result;
     for (int i = 0; i < settings.frames; ++i) {
         if (!wanted(settings, i)) continue;
         if (stopped(watch)) break;
-        write_frame(folder, film_frame(set, settings, i), i);
-        if (settings.truth_frames.contains(i) &&
-            !write_truth(folder / "truth", set, settings, i, watch))
-            break;
-        ++finished;
-        if (watch.frame_done) watch.frame_done(finished);
+        const RecordedFrame recorded = film_frame(set, settings, i);
+        write_frame(folder, recorded, i);
+        result.dropped_samples += recorded.dropped_samples;
+        if (settings.truth_frames.contains(i)) {
+            const auto dropped = write_truth(folder / "truth", set, settings, i, watch);
+            if (!dropped) break;
+            result.dropped_samples += *dropped;
+        }
+        ++result.finished;
+        if (watch.frame_done) watch.frame_done(result.finished);
     }
-    return finished;
+    return result;
 }
 
 }  // namespace inlay

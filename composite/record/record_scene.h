@@ -10,6 +10,7 @@
 #include "render/scene/virtual_scene.h"
 #include "render/trace/embree_scene.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <set>
@@ -48,12 +49,16 @@ struct RecordWatch {
     std::function<bool()> asked_to_stop;           // between frames, and between a frame's passes
 };
 
+struct RecordResult {
+    int finished = 0;                   // frames, with their truth; all, unless asked to stop
+    std::uint64_t dropped_samples = 0;  // not finite, left out of every mean
+};
+
 /// Writes frames, lists, camera.json and truth/ in the layout of a TUM RGB-D folder; record.json,
 /// which marks the folder as complete, is left to the caller. Numbers of a frame depend on
-/// (settings.seed, frame) alone, so that any frame can be made again by itself. Returns how many
-/// frames were finished with their truth: all that were wanted, unless asked to stop.
-int record_scene(const FilmedScene& film, const RecordSettings& settings,
-                 const std::filesystem::path& folder, const RecordWatch& watch = {});
+/// (settings.seed, frame) alone, so that any frame can be made again by itself.
+RecordResult record_scene(const FilmedScene& film, const RecordSettings& settings,
+                          const std::filesystem::path& folder, const RecordWatch& watch = {});
 
 /// How many frames record_scene() is to write.
 int wanted_frames(const RecordSettings& settings);
@@ -73,6 +78,7 @@ struct RecordedFrame {
     Image<EncodedRgb> color;
     Image<std::uint16_t> depth;  // 0 = not measured
     Image<float> exact_depth;    // m
+    std::uint64_t dropped_samples = 0;
 };
 
 /// The set keeps the structures of the meshes that it meets first.

@@ -26,7 +26,6 @@ Image<Rgb> undistorted(const Image<Rgb>& photo, const Lens& lens) {
 
 /// Rays are straight in the image of a pinhole only: a distorted lens takes a second map.
 void march_in_image(RealScene& real, const SlamState& slam, const Settings& settings) {
-    const PhotographedSurface primary{*real.surface, *real.photo};
     real.traced_surface = real.surface;
     real.traced_photo = real.photo;
     const Lens& lens = real.surface->lens;
@@ -40,8 +39,9 @@ void march_in_image(RealScene& real, const SlamState& slam, const Settings& sett
         std::make_shared<const DepthPyramid>(make_depth_pyramid(*real.traced_surface, screen));
     real.geometry = screen_real_geometry({*real.traced_surface, *real.traced_photo},
                                          std::move(pyramid), screen);
-    real.geometry.primary = [&map = primary.surface](const RayPacket& rays, const auto& pixels) {
-        return map_primary(map, rays, pixels);
+    real.geometry.primary = [&map = *real.surface, tilt = screen.largest_tilt](
+                                const RayPacket& rays, const auto& pixels) {
+        return map_primary(map, rays, pixels, tilt);
     };
 }
 

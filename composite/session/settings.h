@@ -55,6 +55,10 @@ struct SettingRow {
 
 const std::vector<SettingRow>& setting_rows();
 
+/// The words that a setting takes, as "on" and "off"; none for a number. Throws Error (usage) that
+/// names the nearest known setting.
+std::vector<std::string> setting_words(const std::string& name);
+
 /// Applies "name=value". Throws Error (usage) that names the nearest known setting.
 void apply_setting(Settings& settings, const std::string& assignment);
 

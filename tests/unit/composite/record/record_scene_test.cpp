@@ -49,7 +49,8 @@ TEST(RecordScene, FinishesWhatIsWanted) {
     settings.written_frames = {1, 3};
     std::vector<int> finished;
     EXPECT_EQ(record_scene(small_film(), settings, folder.path(),
-                           {[&](int done) { finished.push_back(done); }, {}}),
+                           {[&](int done) { finished.push_back(done); }, {}})
+                  .finished,
               2);
     EXPECT_EQ(wanted_frames(settings), 2);
     EXPECT_EQ(finished, (std::vector<int>{1, 2}));
@@ -63,7 +64,8 @@ TEST(RecordScene, StopsBetweenFramesAndBetweenThePassesOfOne) {
         const TemporaryFolder folder;
         int asked = 0;
         const int finished = record_scene(small_film(), quick(3), folder.path(),
-                                          {{}, [&] { return ++asked == answer; }});
+                                          {{}, [&] { return ++asked == answer; }})
+                                 .finished;
         EXPECT_EQ(asked, answer);
         EXPECT_EQ(finished, std::max(0, answer - 3)) << answer;
         EXPECT_EQ(fs::exists(folder / "rgb/000000.png"), answer > 1);
@@ -71,6 +73,15 @@ TEST(RecordScene, StopsBetweenFramesAndBetweenThePassesOfOne) {
         EXPECT_EQ(fs::exists(folder / "truth/composite/000000.exr"), answer > 3);
         EXPECT_EQ(fs::exists(folder / "rgb/000001.png"), answer > 4);
     }
+}
+
+TEST(RecordScene, CountsSamplesThatAreNotFinite) {
+    const TemporaryFolder folder, other;
+    FilmedScene film = small_film();
+    EXPECT_EQ(record_scene(film, quick(1), folder.path()).dropped_samples, 0u);
+    // a bright surface under the brightest light there is sends back more than a float holds
+    film.environment.radiance.pixels.assign(film.environment.radiance.pixels.size(), Rgb(1e38f));
+    EXPECT_GT(record_scene(film, quick(1), other.path()).dropped_samples, 0u);
 }
 
 }  // namespace

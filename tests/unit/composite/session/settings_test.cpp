@@ -67,6 +67,22 @@ TEST(SettingRows, SayWhatFastSlamChanges) {
     EXPECT_NE(printed(fast), printed({}));
 }
 
+TEST(SettingRows, WordsAreWhatTheSettingTakes) {
+    EXPECT_EQ(setting_words("filter.enabled"), (std::vector<std::string>{"on", "off"}));
+    EXPECT_EQ(setting_words("geometry.offset"), std::vector<std::string>{});
+    int with_words = 0;
+    for (const SettingRow& row : setting_rows()) {
+        for (const std::string& word : setting_words(row.name)) {
+            Settings settings;
+            apply_setting(settings, row.name + "=" + word);
+            EXPECT_EQ(row.get(settings), word) << row.name;
+            ++with_words;
+        }
+    }
+    EXPECT_GT(with_words, 10);
+    EXPECT_THROW(setting_words("filter.constant"), Error);
+}
+
 TEST(Settings, RaysOfEveryKindOfGeometryStartAtOneOffset) {
     Settings settings;
     apply_setting(settings, "geometry.offset=0.02");
