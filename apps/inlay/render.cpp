@@ -11,6 +11,8 @@
 #include "apps/inlay/command.h"
 #include "apps/inlay/interrupt.h"
 #include "apps/inlay/render_options.h"
+#include "apps/inlay/replay_output.h"
+#include "apps/inlay/run_page.h"
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
@@ -58,6 +60,21 @@ void write_result(const RenderCommandOptions& o, const OutputFrame& out,
     exr.picture = &out.composite.linear;
     exr.layers = named.layers;
     write_exr(file, exr);
+}
+
+/// Of the picture, under its name with the ending .html.
+void write_report(const RenderCommandOptions& o, const Settings& settings, const OutputFrame& out) {
+    const std::filesystem::path scene = std::filesystem::path(o.scene).filename();
+    FrameReport frame = report_of(0, o.time, out);
+    const StageTimes& ms = frame.ms;
+    frame.ms.total = ms.plan + ms.trace + ms.filter + ms.composite;
+    write_run_page(std::filesystem::path(o.out).replace_extension(".html"),
+                   {"the view of " + scene.stem().string(),
+                    scene.string(),
+                    settings,
+                    out.plan,
+                    {frame},
+                    {{0, encode(out.camera), out.composite.display}}});
 }
 
 void print_totals(const RenderCommandOptions& o, const OutputFrame& out) {
@@ -110,6 +127,7 @@ int run(const RenderCommandOptions& o) {
     catch_interrupts();
     const OutputFrame out = render_view(view, settings, o.photo_samples, interrupted);
     write_result(o, out, layers);
+    if (o.render.report) write_report(o, settings, out);
     print_totals(o, out);
     return 0;
 }

@@ -36,6 +36,9 @@ void add_render_options(CLI::App& subcommand, RenderOptions& o) {
         ->allow_extra_args(false);
     subcommand.add_flag("--print-settings", o.print_settings, "list every setting and stop");
     subcommand.add_option("--layers", o.layers, "layers of the EXR files: names, or all");
+    subcommand.add_flag("--report", o.report,
+                        "also write a page of times, rays, plan and pictures: report.html, or of "
+                        "one picture the page beside it");
     subcommand
         .add_option("--assets", o.assets, "folder with files of the scene; several are possible")
         ->allow_extra_args(false);

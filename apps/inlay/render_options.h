@@ -21,6 +21,7 @@ struct RenderOptions {
     bool print_settings = false;
     std::string layers;               // comma-separated names, or all
     std::vector<std::string> assets;  // folders
+    bool report = false;              // also a page with times, rays and pictures
 };
 
 /// The options refer to `options`, which must outlive the parsing.

@@ -155,6 +155,14 @@ RunDescription description_of(const ReplayOptions& o, const SceneFile& scene,
             plan};
 }
 
+/// Says what is odd about the scene.
+Session session_of(const SceneFile& file, const Recording& recording, const Settings& settings) {
+    PreparedScene prepared = prepare_scene(file, recording, settings);
+    for (const std::string& warning : prepared.warnings)
+        spdlog::warn("{}", warning);
+    return start_session(settings, std::move(prepared.scene), std::move(prepared.environment));
+}
+
 int run(const ReplayOptions& o) {
     apply(o.common);
     const Settings settings = settings_of(o);
@@ -173,25 +181,22 @@ int run(const ReplayOptions& o) {
     const SceneFile file =
         load_scene_file(o.scene, {o.render.assets.begin(), o.render.assets.end()});
     if (settings.use_recorded_poses) warn_of_missing_poses(recording.info, frames);
-    PreparedScene prepared = prepare_scene(file, recording, settings);
-    for (const std::string& warning : prepared.warnings)
-        spdlog::warn("{}", warning);
-    Session session =
-        start_session(settings, std::move(prepared.scene), std::move(prepared.environment));
+    Session session = session_of(file, recording, settings);
     const EffectPlan plan = plan_of(session, recording.info.times);
     if (o.explain) {
         std::cout << explain(plan);
         return 0;
     }
     catch_interrupts();
-    ReplayOutput output =
-        open_output(o.out, recording.info, description_of(o, file, settings, plan), o.resume);
+    const RunDescription description = description_of(o, file, settings, plan);
+    ReplayOutput output = open_output(o.out, recording.info, description, o.resume);
     Totals totals;
     if (!play(session, recording, frames, output, o, totals)) {
         spdlog::warn("interrupted; finished frames stay, go on with --resume");
         return int(ExitCode::interrupted);
     }
     if (!o.video.empty()) write_video(output, frames, o.video, rate_of(recording.info));
+    if (o.render.report) write_report(output, recording, description);
     print_totals(o, totals);
     return 0;
 }

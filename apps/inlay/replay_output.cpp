@@ -8,7 +8,10 @@
 #include "recordings/base/check.h"
 #include "recordings/readers/image_files.h"
 
+#include "apps/inlay/run_page.h"
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace inlay {
 namespace {
@@ -50,10 +53,18 @@ std::uint64_t skipped_pixels(const OutputFrame& composed) {
     return skipped;
 }
 
-FrameReport report_of(const RgbdFrame& frame, const OutputFrame& composed) {
+/// The first, the middle and the last of frames in ascending order.
+std::set<int> shown_frames(const std::vector<FrameReport>& reports) {
+    if (reports.empty()) return {};
+    return {reports.front().frame, reports[reports.size() / 2].frame, reports.back().frame};
+}
+
+}  // namespace
+
+FrameReport report_of(int frame, double time, const OutputFrame& composed) {
     FrameReport report;
-    report.frame = frame.index;
-    report.time = frame.time;
+    report.frame = frame;
+    report.time = time;
     report.tracking = composed.tracking.status;
     report.world_from_camera = composed.tracking.world_from_camera;
     report.ms = composed.ms;
@@ -65,8 +76,6 @@ FrameReport report_of(const RgbdFrame& frame, const OutputFrame& composed) {
     report.plan = composed.plan.names();
     return report;
 }
-
-}  // namespace
 
 ReplayOutput open_output(const fs::path& folder, const RecordingInfo& recording,
                          const RunDescription& run, bool resume) {
@@ -93,7 +102,7 @@ FrameReport write_frame(ReplayOutput& output, const RgbdFrame& frame, const Outp
     exr.world_from_camera = composed.tracking.world_from_camera;
     write_exr(exr_file(output.folder, frame.index), exr);
     write_png(picture_file(output.folder, frame.index), composed.composite.display);
-    FrameReport report = report_of(frame, composed);
+    FrameReport report = report_of(frame.index, frame.time, composed);
     StageTimes& ms = report.ms;
     ms.load = load_ms;
     ms.write = watch.lap();
@@ -101,6 +110,22 @@ FrameReport write_frame(ReplayOutput& output, const RgbdFrame& frame, const Outp
     append_report(output.folder / "frames.jsonl", report);
     output.finished.insert(frame.index);
     return report;
+}
+
+void write_report(const ReplayOutput& output, const Recording& recording,
+                  const RunDescription& run) {
+    RunPage page{recording.info.path.filename().string(),
+                 run.scene.filename().string(),
+                 run.settings,
+                 run.plan,
+                 read_reports(output.folder / "frames.jsonl"),
+                 {}};
+    std::sort(page.frames.begin(), page.frames.end(),
+              [](const FrameReport& a, const FrameReport& b) { return a.frame < b.frame; });
+    for (const int frame : shown_frames(page.frames))
+        page.pictures.push_back(
+            {frame, recording.load(frame).color, read_color(picture_file(output.folder, frame))});
+    write_run_page(output.folder / "report.html", page);
 }
 
 void write_video(const ReplayOutput& output, const std::vector<int>& frames, const fs::path& file,

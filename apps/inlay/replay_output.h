@@ -29,6 +29,14 @@ ReplayOutput open_output(const std::filesystem::path& folder, const RecordingInf
 FrameReport write_frame(ReplayOutput& output, const RgbdFrame& frame, const OutputFrame& composed,
                         double load_ms);
 
+/// What a frame's line says; without the times of loading and writing.
+FrameReport report_of(int frame, double time, const OutputFrame& composed);
+
+/// Writes report.html: all frames that the folder has finished, with pictures of the first, the
+/// middle and the last of them.
+void write_report(const ReplayOutput& output, const Recording& recording,
+                  const RunDescription& run);
+
 /// A video of the given frames' pictures, which must be there.
 void write_video(const ReplayOutput& output, const std::vector<int>& frames,
                  const std::filesystem::path& file, double frames_per_second);

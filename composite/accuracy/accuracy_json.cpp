@@ -177,17 +177,11 @@ std::string to_json_text(const AccuracyReport& report) {
     ordered_json settings;
     for (const SettingRow& row : setting_rows())
         settings[row.name] = row.get(report.settings);
-    const Machine& m = report.machine;
     const ordered_json json{{"version", 1},
                             {"kind", "accuracy"},
                             {"program", report.program},
                             {"date", report.date},
-                            {"machine",
-                             {{"cpu", m.cpu},
-                              {"threads", m.threads},
-                              {"memory_gib", m.memory_gib},
-                              {"system", m.system},
-                              {"compiler", m.compiler}}},
+                            {"machine", ordered_json::parse(to_json_text(report.machine))},
                             {"settings", settings},
                             {"repeats", report.repeats},
                             {"seed", report.seed},

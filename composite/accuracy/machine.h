@@ -1,4 +1,4 @@
-// Machine: what a time was measured on.
+// Machine: what a time was measured on, and when.
 #pragma once
 
 #include <string>
@@ -14,5 +14,14 @@ struct Machine {
 };
 
 Machine this_machine();
+
+/// One JSON object, as the reports and run.json hold it.
+std::string to_json_text(const Machine& machine);
+
+/// Reads it back. Throws Error (bad_data); `place` names the text in the message.
+Machine machine_from_json(const std::string& text, const std::string& place);
+
+/// The time of day in UTC, as 2026-01-31T12:00:00Z.
+std::string utc_now();
 
 }  // namespace inlay

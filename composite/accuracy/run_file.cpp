@@ -6,7 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <ctime>
 #include <fstream>
 
 namespace inlay {
@@ -14,28 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-std::string utc_now() {
-    const std::time_t now = std::time(nullptr);
-    std::tm parts{};
-    gmtime_r(&now, &parts);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-    return text;
-}
-
-ordered_json json_of(const Machine& m) {
-    return {{"cpu", m.cpu},
-            {"threads", m.threads},
-            {"memory_gib", m.memory_gib},
-            {"system", m.system},
-            {"compiler", m.compiler}};
-}
-
-Machine machine_from(const ordered_json& json) {
-    return {json.at("cpu"), json.at("threads"), json.at("memory_gib"), json.at("system"),
-            json.at("compiler")};
-}
 
 /// What must be the same for a run to go on.
 ordered_json identity(const std::vector<Work>& works, const BenchOptions& options) {
@@ -54,11 +31,16 @@ ordered_json identity(const std::vector<Work>& works, const BenchOptions& option
     return json;
 }
 
-void require_same(const ordered_json& kept, const ordered_json& now, const fs::path& file) {
+/// `place` is the name of the object that both are, with a space, or nothing.
+void require_same(const ordered_json& kept, const ordered_json& now, const fs::path& file,
+                  const std::string& place = "") {
     for (const auto& [key, value] : now.items()) {
-        require(kept.contains(key) && kept.at(key) == value,
-                file.string() + ": the run that this folder holds has another '" + key +
-                    "'; repeat its command, or choose another --out",
+        const ordered_json before = kept.is_object() ? kept.value(key, ordered_json()) : nullptr;
+        if (value.is_object()) require_same(before, value, file, place + key + " ");
+        require(before == value,
+                file.string() + ": the run that this folder holds is another one: " + place + key +
+                    " was " + before.dump() + " and is " + value.dump() +
+                    "; repeat its command, or choose another --out",
                 ExitCode::usage);
     }
 }
@@ -71,7 +53,8 @@ RunFacts open_run(const std::vector<Work>& works, const BenchOptions& options,
     const ordered_json now = identity(works, options);
     if (!fs::exists(file)) {
         const RunFacts facts{utc_now(), this_machine()};
-        ordered_json json{{"date", facts.date}, {"machine", json_of(facts.machine)}};
+        ordered_json json{{"date", facts.date},
+                          {"machine", ordered_json::parse(to_json_text(facts.machine))}};
         json["run"] = now;
         write_text(file, json.dump(1) + "\n");
         return facts;
@@ -85,7 +68,7 @@ RunFacts open_run(const std::vector<Work>& works, const BenchOptions& options,
                 kept.contains("machine"),
             file.string() + ": damaged; expected what a run writes; choose another --out");
     require_same(kept.at("run"), now, file);
-    return {kept.at("date"), machine_from(kept.at("machine"))};
+    return {kept.at("date"), machine_from_json(kept.at("machine").dump(), file.string())};
 }
 
 }  // namespace inlay
