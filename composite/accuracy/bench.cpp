@@ -152,6 +152,7 @@ private:
         const fs::path file = unit_file(folder_, works_[row.work], row, repeat);
         if (fs::exists(file)) return unit_from_json(text_of(file), file.string());
         UnitPlan plan{row.knob.name, row.value, row.sampling.settings, {}, repeat == 0, false};
+        plan.light_list = row.sampling.light_list;
         plan.cells = repeat == 0 ? cells_to_try(row, options_) : best_cells(first_of(row));
         const int samples = plan.settings.trace.primary * plan.settings.trace.secondary;
         plan.with_flicker =

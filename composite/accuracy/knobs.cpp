@@ -28,6 +28,10 @@ void turn_noise(Sampling& s, const std::string& value) {
     s.depth = value == "exact" ? SensorDepth::exact : SensorDepth::recorded;
 }
 
+void turn_light_list(Sampling& s, const std::string& value) {
+    s.light_list = value == "tables" ? 0 : std::stoi(value);
+}
+
 }  // namespace
 
 std::vector<Knob> knobs(bool quick) {
@@ -53,6 +57,8 @@ std::vector<Knob> knobs(bool quick) {
             setting("filter.curvature_safety", {"0.2", "0.1", "0.4", "0.8"}),
             setting("filter.visibility_safety", {"1", "0.5", "2", "4"}),
             setting("filter.kernel_radius", {"15", "4", "8", "30"}),
+            setting("trace.coverage", {"32", "0", "8", "128"}),
+            {"light_list", {"tables", "256", "1024", "4096", "16384"}, turn_light_list},
             geometry,
             voxel,
             poses,

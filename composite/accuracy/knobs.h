@@ -15,6 +15,8 @@ namespace inlay {
 struct Sampling {
     Settings settings;
     SensorDepth depth = SensorDepth::recorded;
+    int light_list =
+        0;  // directions in a list of the environment's light; 0: drawn from its tables
 };
 
 struct Knob {

@@ -1,6 +1,7 @@
 // Methods: what turns noisy irradiances into a picture's light, one row each.
 #pragma once
 
+#include "render/filter/environment_irradiance.h"
 #include "render/filter/filter_settings.h"
 #include "render/trace/layers.h"
 
@@ -15,7 +16,8 @@ struct MethodInput {
     const NoisyLayers* previous = nullptr;  // null: without the previous frame
     double environment_bandwidth = 0;       // B_e, 1/rad
     const FilterSettings& settings;
-    double width = 0;  // one of the method's widths; 0 where it has none
+    const EnvironmentIrradiance& open_sky;  // what an unoccluded surface receives
+    double width = 0;                       // one of the method's widths; 0 where it has none
 };
 
 struct Method {
@@ -25,6 +27,7 @@ struct Method {
     std::string summary;         // one sentence
     std::vector<double> widths;  // tried, of which the best one stands for the method; empty: none
     Layers (*apply)(const MethodInput& input);
+    bool needs_unshadowed = false;  // the samples without their shadows, too
 };
 
 /// All methods; a new technique is one row here.

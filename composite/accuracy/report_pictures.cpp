@@ -75,6 +75,7 @@ Shown sample(const Work& work, const JudgedFrame& frame, const Cell& cell,
     SamplingSettings sampling = settings.trace;
     sampling.primary = cell.primary;
     sampling.secondary = cell.secondary;
+    sampling.unshadowed = true;  // for the methods that ask for it
     const auto index = std::uint32_t(frame.now.frame);
     shown.now = sample_frame(work, frame.now, sampling, index);
     if (frame.previous) shown.previous = sample_frame(work, *frame.previous, sampling, index - 1);
@@ -109,7 +110,7 @@ std::vector<ReportPicture> report_pictures(const Work& work, const JudgedFrame& 
         const Layers layers =
             method_named(cell.method)
                 .apply({shown->now.result.layers, previous, work.environment_bandwidth,
-                        settings.filter, cell.width.value_or(0)});
+                        settings.filter, work.open_sky, cell.width.value_or(0)});
         album.add(cell.id, title_of(cell),
                   composite(*frame.now.photo, layers, settings.blend).display);
     }

@@ -29,7 +29,9 @@ const NoisyLayers* layers_of(const std::optional<SampledFrame>& frame) {
 }
 
 Samplings take_samples(const Work& work, const JudgedFrame& frame, const UnitPlan& plan) {
-    const SamplingSettings& sampling = plan.settings.trace;
+    SamplingSettings sampling = plan.settings.trace;
+    for (const MethodCell& cell : plan.cells)
+        sampling.unshadowed = sampling.unshadowed || cell.method->needs_unshadowed;
     const auto index = std::uint32_t(frame.now.frame);
     Samplings taken;
     if (frame.previous) taken.previous = sample_frame(work, *frame.previous, sampling, index - 1);
@@ -50,7 +52,7 @@ Made make(const Work& work, const TrackedFrame& frame, const NoisyLayers& now,
     CostWatch watch;
     const Layers layers =
         cell.method->apply({now, cell.temporal ? previous : nullptr, work.environment_bandwidth,
-                            plan.settings.filter, cell.width});
+                            plan.settings.filter, work.open_sky, cell.width});
     made.filter = watch.lap();
     made.picture = composite(*frame.photo, layers, plan.settings.blend);
     made.composite = watch.lap();
@@ -103,6 +105,7 @@ Image<Rgb> converged_half(const Work& work, const TrackedFrame& frame, const Set
     SamplingSettings sampling = settings.trace;
     sampling.secondary = std::min(reference_secondary, samples);
     sampling.primary = std::max(1, samples / sampling.secondary);
+    sampling.virtual_repeats = 1;
     sampling.seed += reference_seed_offset + half;
     const SampledFrame sampled = sample_frame(work, frame, sampling, std::uint32_t(frame.frame));
     FilterSettings off = settings.filter;
@@ -110,6 +113,13 @@ Image<Rgb> converged_half(const Work& work, const TrackedFrame& frame, const Set
     return composite(*frame.photo, filter_layers(sampled.result.layers, nullptr, 0, off),
                      settings.blend)
         .linear;
+}
+
+Work with_lights(const Work& work, int light_list, std::uint32_t seed) {
+    Work result = work;
+    if (light_list > 0)
+        result.environment = make_light_list(work.environment.map, light_list, seed);
+    return result;
 }
 
 }  // namespace
@@ -135,8 +145,9 @@ Reference converge(const Work& work, const TrackedFrame& frame, const Settings& 
     return mean_of_halves(a, b, frame.photo->linear);
 }
 
-UnitRun measure_unit(const Work& work, const std::vector<JudgedFrame>& frames,
+UnitRun measure_unit(const Work& given, const std::vector<JudgedFrame>& frames,
                      const UnitPlan& plan) {
+    const Work work = with_lights(given, plan.light_list, plan.settings.trace.seed);
     UnitRun unit;
     unit.work = work.name;
     unit.knob = plan.knob;

@@ -62,6 +62,7 @@ struct UnitPlan {
     std::vector<MethodCell> cells;
     bool judge = true;          // else only times are taken
     bool with_flicker = false;  // two more samplings of each frame
+    int light_list = 0;         // see Sampling
 };
 
 /// Samples every frame once and hands the samples to every method in turn. A method that throws is

@@ -23,6 +23,7 @@ fs::path truth_file(const Work& work, const char* kind, int frame, const char* e
 
 void light(Work& work, EnvironmentMap map) {
     work.environment_bandwidth = environment_bandwidth(map.radiance);
+    work.open_sky = make_environment_irradiance(map);
     work.environment = make_environment_sampler(std::move(map));
 }
 

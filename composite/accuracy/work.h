@@ -4,6 +4,7 @@
 #include "composite/accuracy/reference.h"
 #include "composite/session/prepare_scene.h"
 #include "recordings/readers/recording.h"
+#include "render/filter/environment_irradiance.h"
 #include "render/sample/environment_sampler.h"
 #include "render/scene/scene_file.h"
 
@@ -23,6 +24,7 @@ struct Work {
     bool knows_room = false;             // the scene holds the real objects too
     EnvironmentSampler environment;
     double environment_bandwidth = 0;  // B_e, 1/rad
+    EnvironmentIrradiance open_sky;    // of the environment
     std::optional<View> view;          // of a scene
     std::vector<int> truth_frames;     // with truth/composite, ascending
     int truth_samples = 0;             // paths per pixel; 0: unknown or no truth

@@ -21,6 +21,8 @@ std::vector<SettingRow> render_rows() {
             INLAY_MEMBER(geometry.screen.largest_tilt)),
         row("trace.primary", "rays per pixel", INLAY_MEMBER(trace.primary)),
         row("trace.secondary", "samples per primary ray", INLAY_MEMBER(trace.secondary)),
+        row("trace.virtual_repeats", "per sample", INLAY_MEMBER(trace.virtual_repeats)),
+        row("trace.coverage", "rays per pixel", INLAY_MEMBER(trace.coverage)),
         row("trace.seed", "", INLAY_MEMBER(trace.seed)),
         row("trace.depth_tolerance", "share of depth", INLAY_MEMBER(trace.depth_tolerance)),
         row("trace.occluder_floor", "share of depth", INLAY_MEMBER(trace.occluder_floor)),

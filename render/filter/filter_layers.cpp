@@ -153,9 +153,13 @@ Image<float> smooth_light(const Frames& frames, const Receivers& receivers,
             out.*layer = Image<Rgb>(frames.now.lens.width, frames.now.lens.height, Rgb(0));
         return Image<float>(frames.now.lens.width, frames.now.lens.height);
     }
-    LightLimits limits{kind, frames.environment_bandwidth, nullptr, frames.now.samples, as_ratio};
+    const auto samples_of = [&](const NoisyLayers& frame) {
+        return &receivers == &frames.real ? frame.samples : samples_on_virtual(frame);
+    };
+    LightLimits limits{kind, frames.environment_bandwidth, nullptr, samples_of(frames.now),
+                       as_ratio};
     LightLimits limits_before = limits;
-    if (frames.previous != nullptr) limits_before.samples = frames.previous->samples;
+    if (frames.previous != nullptr) limits_before.samples = samples_of(*frames.previous);
     const Smoothed smoothed =
         smooth(receivers, now, before, {limits, limits_before}, frames.settings);
     for (std::size_t i = 0; i < layers.size(); ++i)
@@ -204,7 +208,7 @@ void smooth_glossy(const Frames& frames, Layers& result) {
     if (!any) return;
     const std::array<const Image<Rgb>*, 1> images{&now.s_rv};
     const LightLimits limits{LightKind::direct, frames.environment_bandwidth, &now.glossy_bandwidth,
-                             now.samples};
+                             samples_on_virtual(now)};
     // A highlight may be a pixel wide: where the width says so, it is left alone.
     FilterSettings settings = frames.settings;
     settings.narrowest_width = 0;

@@ -45,7 +45,8 @@ struct Unshadowed {
 struct NoisyLayers {
     Lens lens;
     Pose world_from_camera;
-    int samples = 0;  // per pixel in all: primary x secondary
+    int samples = 0;          // per pixel in all: primary x secondary
+    int virtual_samples = 0;  // the same where virtual surfaces receive; 0: as `samples`
     Image<float> m;   // M: share of the primary samples that met real surfaces or nothing, 0..1
     Image<Rgb> k_v;   // k_V: mean albedo / pi over the samples on virtual surfaces
     Image<Rgb> s_rv;  // S_RV: mean glossy radiance over the samples on virtual surfaces
@@ -56,6 +57,11 @@ struct NoisyLayers {
     std::uint64_t dropped_samples = 0;  // non-finite ones, left out of every mean
     Unshadowed unshadowed;              // empty unless asked for
 };
+
+/// Light samples per pixel that virtual surfaces got.
+inline int samples_on_virtual(const NoisyLayers& layers) {
+    return layers.virtual_samples > 0 ? layers.virtual_samples : layers.samples;
+}
 
 /// The same terms after filtering, which is what eq. 6.2 combines.
 struct Layers {

@@ -30,7 +30,7 @@ Irradiance make_irradiance(int width, int height) {
 void store(const PixelSums& sums, int x, int y, NoisyLayers& layers) {
     const std::size_t i = layers.m.index(x, y);
     layers.m.pixels[i] =
-        sums.primary > 0 ? 1 - float(sums.virtual_.hits) / float(sums.primary) : 1.0f;
+        sums.looks > 0 ? 1 - float(sums.looks_virtual) / float(sums.looks) : 1.0f;
     layers.k_v.pixels[i] = sums.albedo.mean() / std::numbers::pi_v<float>;
     layers.s_rv.pixels[i] = sums.glossy_direct.mean() + sums.glossy_indirect.mean();
     layers.glossy_bandwidth.pixels[i] = sums.glossy_bandwidth;

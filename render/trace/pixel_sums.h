@@ -48,7 +48,7 @@ struct ReceiverSums {
 };
 
 struct PixelSums {
-    int primary = 0;
+    int looks = 0, looks_virtual = 0;  // camera rays in all, and those that met virtual surfaces
     ReceiverSums real, virtual_;
     PairedSum direct, indirect;  // on real surfaces
     SampleSum direct_virtual, indirect_virtual, glossy_direct, glossy_indirect, albedo;

@@ -20,43 +20,129 @@ struct Tile {
     RayCounts rays;
 };
 
-void count_landings(const Landings& landings, Tile& tile) {
-    for (int lane = 0; lane < packet_width; ++lane) {
-        if (!tile.area.has(lane)) continue;
-        const Landing& landing = landings[std::size_t(lane)];
-        PixelSums& sums = tile.sums[std::size_t(lane)];
-        ++sums.primary;
-        if (landing.kind == LandingKind::nothing) continue;
-        ReceiverSums& receiver = receiver_of(sums, landing.kind);
-        if (receiver.hits++ == 0) receiver.object = landing.object;
-        receiver.position += glm::dvec3(landing.position);
-        receiver.normal += glm::dvec3(landing.normal);
-        if (landing.kind != LandingKind::on_virtual) continue;
-        sums.albedo.add(landing.bsdf.diffuse);
+void receive(const Landing& landing, PixelSums& sums) {
+    ReceiverSums& receiver = receiver_of(sums, landing.kind);
+    if (receiver.hits++ == 0) receiver.object = landing.object;
+    receiver.position += glm::dvec3(landing.position);
+    receiver.normal += glm::dvec3(landing.normal);
+    if (landing.kind == LandingKind::on_virtual)
         sums.glossy_bandwidth = std::max(sums.glossy_bandwidth, glossy_bandwidth(landing.bsdf));
-    }
 }
 
-void sample_tile(const TwoModeScene& scene, const SamplingSettings& settings, std::uint32_t frame,
-                 Tile& tile) {
-    const auto keys_of = [&](int sample) {
+/// What a camera ray tells about the pixel's coverage and reflectance.
+void look(const Landing& landing, PixelSums& sums) {
+    ++sums.looks;
+    if (landing.kind != LandingKind::on_virtual) return;
+    ++sums.looks_virtual;
+    sums.albedo.add(landing.bsdf.diffuse);
+}
+
+/// The random numbers and rays of one tile.
+struct TilePass {
+    const TwoModeScene& scene;
+    const SamplingSettings& settings;
+    std::uint32_t frame;
+    Tile& tile;
+
+    SampleKeys keys(int sample) const {
         return sample_keys(tile.area, scene.lens, {settings.seed, frame, 0, std::uint32_t(sample)});
-    };
-    for (int p = 0; p < settings.primary; ++p) {
+    }
+
+    Landings land_at(int sample) const {
         const RayPacket rays = camera_rays(tile.area, scene.lens, scene.world_from_camera,
-                                           pixel_shifts(keys_of(p), position_in_pixel));
-        const Landings landings = land(scene.real, scene.virtual_objects, rays, tile.area.pixels,
-                                       settings.depth_tolerance);
+                                           pixel_shifts(keys(sample), position_in_pixel));
         tile.rays.primary += std::uint64_t(std::popcount(rays.active));
-        count_landings(landings, tile);
+        return land(scene.real, scene.virtual_objects, rays, tile.area.pixels,
+                    settings.depth_tolerance);
+    }
+
+    void add_samples(const Landings& landings, int first_sample) const {
         for (int s = 0; s < settings.secondary; ++s) {
-            SamplePass pass{scene,     settings, landings, keys_of(p * settings.secondary + s),
+            SamplePass pass{scene,     settings, landings, keys(first_sample + s),
                             tile.sums, tile.rays};
             add_direct(pass);
             add_indirect(pass);
             add_glossy(pass);
         }
     }
+
+    template <class Body>
+    void for_each_lane(const Body& body) const {
+        for (int lane = 0; lane < packet_width; ++lane)
+            if (tile.area.has(lane)) body(std::size_t(lane), tile.sums[std::size_t(lane)]);
+    }
+};
+
+/// The landings of one kind; the others count as nothing.
+Landings only(LandingKind kind, const Landings& landings) {
+    Landings result;
+    for (std::size_t lane = 0; lane < packet_width; ++lane)
+        if (landings[lane].kind == kind) result[lane] = landings[lane];
+    return result;
+}
+
+bool any_landing(const Landings& landings) {
+    return std::any_of(landings.begin(), landings.end(),
+                       [](const Landing& landing) { return landing.kind != LandingKind::nothing; });
+}
+
+/// Which block of `secondary` sample numbers a camera ray's light takes. Blocks follow each other,
+/// so that a pixel's samples are spread as one sequence: first those of the first `primary` rays,
+/// then their repeats on virtual surfaces, then the ray that stands for all coverage rays.
+int block_of(const SamplingSettings& s, int ray, int repeat) {
+    if (ray == s.primary) return s.primary * s.virtual_repeats + repeat;
+    if (repeat == 0) return ray;
+    return s.primary + ray * (s.virtual_repeats - 1) + repeat - 1;
+}
+
+/// Light samples of what one camera ray of each pixel met, repeated on virtual surfaces.
+void gather_light(const TilePass& pass, const Landings& landings, int ray) {
+    const SamplingSettings& s = pass.settings;
+    pass.add_samples(landings, block_of(s, ray, 0) * s.secondary);
+    if (s.virtual_repeats == 1) return;
+    const Landings repeated = only(LandingKind::on_virtual, landings);
+    if (!any_landing(repeated)) return;
+    for (int repeat = 1; repeat < s.virtual_repeats; ++repeat)
+        pass.add_samples(repeated, block_of(s, ray, repeat) * s.secondary);
+}
+
+bool sees_virtual(const Tile& tile) {
+    return std::any_of(tile.sums.begin(), tile.sums.end(),
+                       [](const PixelSums& sums) { return sums.looks_virtual > 0; });
+}
+
+/// Looks again at a tile with virtual surfaces: its edges and textures need more camera rays than
+/// its light does. A kind of surface that only these rays meet gets light samples too.
+void refine_coverage(const TilePass& pass) {
+    const SamplingSettings& settings = pass.settings;
+    Landings missed_real, missed_virtual;  // both kinds may be missed in one pixel
+    for (int p = settings.primary; p < settings.coverage; ++p) {
+        const Landings landings = pass.land_at(p);
+        pass.for_each_lane([&](std::size_t lane, PixelSums& sums) {
+            const Landing& landing = landings[lane];
+            look(landing, sums);
+            if (landing.kind == LandingKind::nothing) return;
+            if (receiver_of(sums, landing.kind).hits > 0) return;
+            receive(landing, sums);
+            (landing.kind == LandingKind::real ? missed_real : missed_virtual)[lane] = landing;
+        });
+    }
+    for (const Landings* missed : {&missed_real, &missed_virtual})
+        if (any_landing(*missed)) gather_light(pass, *missed, settings.primary);
+}
+
+void sample_tile(const TwoModeScene& scene, const SamplingSettings& settings, std::uint32_t frame,
+                 Tile& tile) {
+    const TilePass pass{scene, settings, frame, tile};
+    for (int p = 0; p < settings.primary; ++p) {
+        const Landings landings = pass.land_at(p);
+        pass.for_each_lane([&](std::size_t lane, PixelSums& sums) {
+            look(landings[lane], sums);
+            if (landings[lane].kind != LandingKind::nothing) receive(landings[lane], sums);
+        });
+        gather_light(pass, landings, p);
+    }
+    if (settings.coverage > settings.primary && sees_virtual(tile)) refine_coverage(pass);
 }
 
 void add(RayCounts& sum, const RayCounts& more) {
@@ -70,6 +156,8 @@ void add(RayCounts& sum, const RayCounts& more) {
 }  // namespace
 
 void validate(const SamplingSettings& s) {
+    require(s.virtual_repeats >= 1, "trace.virtual_repeats must be positive", ExitCode::usage);
+    require(s.coverage >= 0, "trace.coverage must not be negative", ExitCode::usage);
     require(s.primary > 0 && s.secondary > 0, "trace.primary and trace.secondary must be positive",
             ExitCode::usage);
     for (const auto& [name, share] : {std::pair{"trace.depth_tolerance", s.depth_tolerance},
@@ -95,6 +183,7 @@ TwoModeResult sample_two_modes(const TwoModeScene& scene, const SamplingSettings
     TwoModeResult result{
         make_noisy_layers(lens, scene.world_from_camera, settings.primary * settings.secondary),
         {}};
+    result.layers.virtual_samples = result.layers.samples * settings.virtual_repeats;
     if (settings.unshadowed) {
         const Image<Rgb> black(lens.width, lens.height, Rgb(0));
         result.layers.unshadowed = {black, black};

@@ -15,6 +15,10 @@ namespace inlay {
 struct SamplingSettings {
     int primary = 4;    // camera rays per pixel
     int secondary = 4;  // light samples per camera ray
+    int coverage = 32;  // camera rays per pixel that decide M and k_V where virtual surfaces are
+                        // in view; those beyond `primary` gather no light
+    int virtual_repeats = 4;  // light samples on a virtual surface for each one on a real surface,
+                              // where the ratio E_RV / E_R and wide filters hide most of the noise
     std::uint32_t seed = 1;
     float depth_tolerance =
         0.0f;  // share of depth by which real surfaces must be nearer to hide virtual ones
@@ -24,7 +28,7 @@ struct SamplingSettings {
     bool unshadowed = false;  // also sum direct light without shadows; nothing else changes
 };
 
-/// Throws Error unless counts are positive and shares within 0..1.
+/// Throws Error unless counts are positive (coverage: 0 or more) and shares within 0..1.
 void validate(const SamplingSettings& settings);
 
 /// N = `samples` as 4 primary x N/4 secondary; N x 1 below 4. Throws Error unless N > 0 and, from 4

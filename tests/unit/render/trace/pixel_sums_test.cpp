@@ -35,12 +35,13 @@ TEST(PairedSum, DropsASampleFromBothModesOrFromNone) {
 
 TEST(Store, DividesEachSumByItsOwnCount) {
     PixelSums sums;
-    sums.primary = 4;
+    sums.looks = 4;
     sums.real.hits = 3;
     sums.real.object = 1;
     sums.real.normal = {0, 0, 6};
     sums.real.position = {3, 0, 6};
     sums.virtual_.hits = 1;
+    sums.looks_virtual = 1;
     for (int i = 0; i < 3; ++i)
         sums.direct.add(Rgb(2), Rgb(1));
     sums.direct_virtual.add(Rgb(5));
@@ -62,7 +63,7 @@ TEST(Store, DividesEachSumByItsOwnCount) {
 
 TEST(Store, NormalsThatCancelStillGiveAUnitVector) {
     PixelSums sums;
-    sums.primary = 2;
+    sums.looks = 2;
     sums.real.hits = 2;
     sums.real.object = 1;
     NoisyLayers layers = make_noisy_layers(lens_of(1, 1, 1), {}, 1);

@@ -94,11 +94,54 @@ TEST(TwoModeSampler, SplitsSamplesAsPromised) {
         EXPECT_THROW(with_samples({}, samples), Error) << samples;
 }
 
+/// Mean square of the coverage's error over the pixels that some reference ray sees an edge in.
+double coverage_error(const NoisyLayers& layers, const NoisyLayers& reference) {
+    double sum = 0;
+    int edges = 0;
+    for (std::size_t i = 0; i < layers.m.pixels.size(); ++i) {
+        if (reference.m.pixels[i] == 0 || reference.m.pixels[i] == 1) continue;
+        sum += std::pow(double(layers.m.pixels[i] - reference.m.pixels[i]), 2);
+        ++edges;
+    }
+    EXPECT_GT(edges, 30);
+    return sum / edges;
+}
+
+TEST(TwoModeSampler, CoverageRaysSharpenEdgesAndLeaveTheRestAlone) {
+    const PlacedScene scene({real_floor(), sphere_object({0.3, 0.4, 0}, 0.3f, Diffuse{})});
+    const Lens lens = lens_of(40, 30, 40);
+    SamplingSettings plain;
+    plain.coverage = 0;
+    SamplingSettings many = plain;
+    many.primary = 256;
+    many.secondary = 1;
+    const auto layers_of = [&](const SamplingSettings& settings) {
+        return sample_scene(scene, lobe_environment(), lens, view, settings).layers;
+    };
+    const NoisyLayers four = layers_of(plain), refined = layers_of({}), reference = layers_of(many);
+    // Stratified in two dimensions, an edge's error falls faster than by 1 / sqrt(32 / 4).
+    EXPECT_LT(coverage_error(refined, reference), coverage_error(four, reference) / 8);
+    int only_glimpsed = 0;
+    for (std::size_t i = 0; i < refined.m.pixels.size(); ++i) {
+        EXPECT_TRUE(same(refined.direct.e_r, four.direct.e_r, i) || four.m.pixels[i] == 0);
+        if (refined.m.pixels[i] == 1) continue;
+        EXPECT_NE(refined.virtual_.object.pixels[i], 0U);  // what is shown has received light
+        if (four.m.pixels[i] < 1) continue;
+        ++only_glimpsed;
+        EXPECT_GT(luminance(refined.direct.e_rv_virtual.pixels[i]) +
+                      luminance(refined.indirect.e_rv_virtual.pixels[i]),
+                  0);
+    }
+    EXPECT_GT(only_glimpsed, 3);
+}
+
 TEST(TwoModeSampler, RefusesSettingsOutOfRange) {
     EXPECT_NO_THROW(validate(SamplingSettings{}));
     for (const SamplingSettings& bad :
-         {SamplingSettings{0, 4}, SamplingSettings{4, 0}, SamplingSettings{4, 4, 1, -0.1f},
-          SamplingSettings{4, 4, 1, 0, 2}, SamplingSettings{4, 4, 1, 0, 0.02f, NAN}}) {
+         {SamplingSettings{0, 4}, SamplingSettings{4, 0}, SamplingSettings{4, 4, -1},
+          SamplingSettings{4, 4, 0, 0},
+          SamplingSettings{4, 4, 0, 1, 1, -0.1f}, SamplingSettings{4, 4, 0, 1, 1, 0, 2},
+          SamplingSettings{4, 4, 0, 1, 1, 0, 0.02f, NAN}}) {
         try {
             validate(bad);
             FAIL();
