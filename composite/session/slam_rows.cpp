@@ -11,6 +11,7 @@ std::vector<SettingRow> slam_rows() {
         row("slam.depth.farthest", "m", INLAY_MEMBER(slam.depth.farthest)),
         row("slam.depth.step", "standard deviations", INLAY_MEMBER(slam.depth.step)),
         row("slam.depth.sensor_noise", "factor", INLAY_MEMBER(slam.depth.sensor_noise)),
+        row("slam.depth.steepest", "share of depth per pixel", INLAY_MEMBER(slam.depth.steepest)),
         row("slam.depth.smoothing_radius", "px", INLAY_MEMBER(slam.depth.smoothing_radius)),
         row("slam.depth.smoothing_sigma", "px", INLAY_MEMBER(slam.depth.smoothing_sigma)),
         row("slam.fusion.voxel_size", "m", INLAY_MEMBER(slam.fusion.voxel_size)),

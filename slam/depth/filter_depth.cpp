@@ -2,6 +2,7 @@
 
 #include "recordings/base/check.h"
 #include "recordings/base/parallel.h"
+#include "slam/depth/steep_surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -70,6 +71,8 @@ void validate(const DepthSettings& s) {
             "slam.depth.nearest must be above 0 and below slam.depth.farthest", ExitCode::usage);
     require(s.step > 0 && s.sensor_noise > 0,
             "slam.depth.step and slam.depth.sensor_noise must be above 0", ExitCode::usage);
+    require(s.steepest >= 0 && s.steepest <= 0.25f, "slam.depth.steepest must be 0..0.25",
+            ExitCode::usage);
     require(s.smoothing_radius >= 0 && s.smoothing_radius <= 16 && s.smoothing_sigma > 0,
             "slam.depth.smoothing_radius must be 0..16 and slam.depth.smoothing_sigma above 0",
             ExitCode::usage);
@@ -79,10 +82,16 @@ Image<float> clean_depth(const Image<float>& depth, const DepthSettings& setting
     Image<float> in_range(depth.width, depth.height);
     std::transform(depth.pixels.begin(), depth.pixels.end(), in_range.pixels.begin(),
                    [&](float z) { return measured(z, settings) ? z : 0.0f; });
+    Image<unsigned char> alone(depth.width, depth.height);
+    parallel_rows(depth.height, [&](int y) {
+        for (int x = 0; x < depth.width; ++x)
+            alone(x, y) = in_range(x, y) > 0 && stands_alone(in_range, x, y, settings);
+    });
     Image<float> clean = in_range;
     parallel_rows(depth.height, [&](int y) {
         for (int x = 0; x < depth.width; ++x) {
-            if (in_range(x, y) > 0 && stands_alone(in_range, x, y, settings)) clean(x, y) = 0;
+            if (alone(x, y) != 0 && !steep_plane(in_range, {x, y}, settings, &alone))
+                clean(x, y) = 0;
         }
     });
     return clean;

@@ -11,6 +11,7 @@ struct DepthSettings {
     float farthest = 5.0f;         // m, farther ones too
     float step = 6.0f;             // standard deviations of depth between which there is an edge
     float sensor_noise = 1.0f;     // factor on the standard deviation that depth_sigma() gives
+    float steepest = 0.03f;        // share of depth by which a surface may recede per pixel
     int smoothing_radius = 3;      // px, half-width of the bilateral window; 0: no smoothing
     float smoothing_sigma = 2.0f;  // px, its spatial standard deviation
 };
@@ -28,7 +29,8 @@ inline float depth_step(float z, const DepthSettings& settings) {
 }
 
 /// The depth (m) with holes (0) where it is not finite, out of range, or of a flying pixel: one
-/// that hangs between two surfaces, with no more than two of its 8 neighbours on its own.
+/// that hangs between two surfaces, with no more than two of its 8 neighbours on its own, and is
+/// not of a patch of such pixels that lie on one plane: that is a surface seen at a grazing angle.
 Image<float> clean_depth(const Image<float>& depth, const DepthSettings& settings);
 
 /// Bilateral filter of a cleaned depth image. Neighbours beyond a depth step have no weight at

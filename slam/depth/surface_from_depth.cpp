@@ -3,6 +3,7 @@
 #include "recordings/base/check.h"
 #include "recordings/base/parallel.h"
 #include "slam/depth/camera_view.h"
+#include "slam/depth/steep_surface.h"
 
 #include <cmath>
 #include <string>
@@ -10,7 +11,8 @@
 namespace inlay {
 namespace {
 
-constexpr int reach = 2;  // px, over which slopes are measured
+constexpr int reach = 2;             // px, over which slopes are measured
+constexpr double off_centre = 0.75;  // px; fitted to one side of a rim, a plane leans with its bend
 
 /// The farthest neighbour within reach, in the direction (dx, dy), that is on the pixel's surface;
 /// the pixel itself where there is none.
@@ -28,6 +30,18 @@ glm::ivec2 neighbour(const Image<float>& depth, const glm::ivec2& at, const glm:
     return farthest;
 }
 
+/// The cross product of the slopes of the plane that a steep surface's pixel lies on; 0 if none.
+glm::vec3 across_steep(const Image<float>& depth, const Image<glm::vec3>& rays,
+                       const glm::ivec2& at, const DepthSettings& settings) {
+    const bool inside = depth.contains(at.x - 1, at.y - 1) && depth.contains(at.x + 1, at.y + 1);
+    const auto plane = inside ? steep_plane(depth, at, settings) : std::nullopt;
+    if (!plane || glm::length(plane->centre) > off_centre) return glm::vec3(0);
+    const auto point = [&](int dx, int dy) {
+        return float(plane->depth_at(dx, dy)) * rays(at.x + dx, at.y + dy);
+    };
+    return glm::cross(point(1, 0) - point(-1, 0), point(0, 1) - point(0, -1));
+}
+
 /// Unit normal towards the camera; 0 where the surface is too small to have one.
 glm::vec3 normal_at(const Image<float>& depth, const Image<glm::vec3>& rays, const glm::ivec2& at,
                     const DepthSettings& settings) {
@@ -37,9 +51,10 @@ glm::vec3 normal_at(const Image<float>& depth, const Image<glm::vec3>& rays, con
         const glm::ivec2 b = neighbour(depth, at, -direction, step);
         return depth(a.x, a.y) * rays(a.x, a.y) - depth(b.x, b.y) * rays(b.x, b.y);
     };
-    const glm::vec3 across = glm::cross(slope({1, 0}), slope({0, 1}));
+    glm::vec3 across = glm::cross(slope({1, 0}), slope({0, 1}));
+    if (across == glm::vec3(0)) across = across_steep(depth, rays, at, settings);
     const float size = glm::length(across);
-    if (!(size > 0)) return glm::vec3(0);
+    if (!(size > 0 && std::isfinite(size))) return glm::vec3(0);
     const bool away = glm::dot(across, rays(at.x, at.y)) > 0;
     return across * ((away ? -1.0f : 1.0f) / size);
 }

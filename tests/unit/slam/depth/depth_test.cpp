@@ -42,6 +42,48 @@ TEST(FilterDepth, DropsFlyingPixelsAndKeepsBothSurfaces) {
     EXPECT_EQ(clean(11, 4), 2);
 }
 
+/// A plane at 76 degrees from the line of sight: at 0.8 m it recedes by 1.1 cm a pixel, more than
+/// an edge between two surfaces needs. Pixels to both sides see a wall.
+Image<float> grazing_face(const Lens& lens, int first, int end) {
+    Image<float> depth(lens.width, lens.height, 2.0f);
+    for (int y = 0; y < lens.height; ++y) {
+        for (int x = first; x < end; ++x) {
+            const glm::dvec3 ray = unproject(lens, {x, y});
+            depth(x, y) = float(0.2 / (0.25 - ray.x));
+        }
+    }
+    return depth;
+}
+
+const Lens quarter_lens{80, 60, 262.5, 262.5, 39.5, 29.5};
+
+TEST(FilterDepth, KeepsASurfaceSeenAtAGrazingAngle) {
+    const Image<float> depth = grazing_face(quarter_lens, 30, 42);
+    const Image<float> clean = clean_depth(depth, {});
+    DepthSettings as_edges;
+    as_edges.steepest = 0;
+    const Image<float> without = clean_depth(depth, as_edges);
+    for (int y = 0; y < 60; ++y) {
+        for (int x = 30; x < 42; ++x)
+            ASSERT_EQ(clean(x, y), depth(x, y)) << x << ", " << y;
+    }
+    EXPECT_EQ(without(36, 30), 0);
+}
+
+TEST(FilterDepth, DropsALineOfFlyingPixelsAlongAnEdge) {
+    for (const float slant : {0.0f, 0.6f}) {
+        Image<float> depth(40, 40, 1.0f);
+        for (int y = 0; y < 40; ++y) {
+            const int edge = 8 + int(slant * float(y));
+            for (int x = edge; x < 40; ++x)
+                depth(x, y) = x == edge ? 1.02f : 1.04f;
+        }
+        const Image<float> clean = clean_depth(depth, {});
+        for (int y = 1; y < 39; ++y)
+            ASSERT_EQ(clean(8 + int(slant * float(y)), y), 0) << slant << ", " << y;
+    }
+}
+
 TEST(SmoothDepth, NeverMixesTwoSurfaces) {
     Image<float> depth(40, 20, 1.0f);
     for (int y = 0; y < 20; ++y) {
@@ -123,6 +165,17 @@ TEST(SurfaceFromDepth, NormalsOfABallPointOutAndTowardsTheCamera) {
         EXPECT_LT(glm::dot(surface.normal.pixels[i], surface.position.pixels[i]), 0);
     }
     EXPECT_GT(tested, 500);
+}
+
+TEST(SurfaceFromDepth, AGrazingSurfaceHasItsNormal) {
+    const SurfaceMap surface =
+        surface_from_depth(grazing_face(quarter_lens, 30, 42), quarter_lens, Pose{});
+    // z = 0.2 / (0.25 - x / z) is the plane 0.25 z - x = 0.2.
+    const glm::vec3 normal = glm::normalize(glm::vec3(1, 0, -0.25f));
+    for (int y = 1; y < 59; ++y) {
+        for (int x = 31; x < 41; ++x)  // 1e-4: rounding of float depths over two pixels
+            ASSERT_GT(glm::dot(surface.normal(x, y), normal), 1 - 1e-4f) << x << ", " << y;
+    }
 }
 
 TEST(SurfaceFromDepth, PositionsAppearAtTheirPixelsThroughABentLens) {
