@@ -2,6 +2,7 @@
 #include "composite/accuracy/accuracy_json.h"
 #include "composite/accuracy/bench.h"
 #include "composite/accuracy/built_in_works.h"
+#include "composite/accuracy/summary.h"
 #include "composite/write/atomic_file.h"
 #include "recordings/base/check.h"
 
@@ -115,6 +116,7 @@ int measure(const AccuracyOptions& o, const std::vector<Work>& works, const Benc
     const std::string json = to_json_text(result.report);
     write_text(folder / "accuracy.json", json);
     write_text(folder / "accuracy.html", report_page(json));
+    write_text(folder / "summary.md", summary_text(result.report));
     if (o.common.json)
         std::cout << json;
     else

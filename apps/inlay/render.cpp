@@ -66,6 +66,7 @@ void write_result(const RenderCommandOptions& o, const OutputFrame& out,
 void write_report(const RenderCommandOptions& o, const Settings& settings, const OutputFrame& out) {
     const std::filesystem::path scene = std::filesystem::path(o.scene).filename();
     FrameReport frame = report_of(0, o.time, out);
+    frame.tracking = TrackingStatus::tracked;  // the scene says from where it is seen
     const StageTimes& ms = frame.ms;
     frame.ms.total = ms.plan + ms.trace + ms.filter + ms.composite;
     write_run_page(std::filesystem::path(o.out).replace_extension(".html"),

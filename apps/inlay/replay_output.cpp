@@ -114,7 +114,7 @@ FrameReport write_frame(ReplayOutput& output, const RgbdFrame& frame, const Outp
 
 void write_report(const ReplayOutput& output, const Recording& recording,
                   const RunDescription& run) {
-    RunPage page{recording.info.path.filename().string(),
+    RunPage page{name_of(recording.info),
                  run.scene.filename().string(),
                  run.settings,
                  run.plan,

@@ -32,7 +32,7 @@ std::string fingerprint_of_frames(const RecordingInfo& info) {
 /// What identifies a recording, and how it is read, without decoding it.
 Json describe(const RecordingInfo& info) {
     const Lens& l = info.lens;
-    return {{"name", info.path.filename().string()},
+    return {{"name", name_of(info)},
             {"profile", info.profile},
             {"frames", info.frames.size()},
             {"size", {l.width, l.height}},
@@ -104,6 +104,11 @@ void require_same_run(const fs::path& file, const Json& now) {
 }
 
 }  // namespace
+
+std::string name_of(const RecordingInfo& recording) {
+    const fs::path path = fs::absolute(recording.path).lexically_normal();
+    return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
 
 void write_run_file(const fs::path& folder, const RecordingInfo& recording,
                     const RunDescription& run) {

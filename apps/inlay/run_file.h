@@ -25,6 +25,9 @@ struct RunDescription {
     EffectPlan plan;
 };
 
+/// The name of the recording's folder, whether or not its path was given with a slash at its end.
+std::string name_of(const RecordingInfo& recording);
+
 /// Writes run.json of an output folder. One that is there already must describe the same recording,
 /// scene with the contents of its files, settings and layers. Throws Error: usage, naming what
 /// differs and both values; bad_data for a file that is no JSON; cannot_create, disk_fault.

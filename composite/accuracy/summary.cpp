@@ -34,9 +34,12 @@ std::string bound(bool beyond) { return beyond ? "> " : ""; }
 std::string head_text(const AccuracyReport& report) {
     return fmt::format(
         "# What accuracy costs in time\n\n"
-        "Written by `inlay accuracy` {}, {}: {}, {} threads; {} repeats, seed {}{}.\n"
-        "RMSE is that of linear radiance (1 is full white) over the pixels that objects influence; "
-        "ms is the time of\ntracing, filter and composite of a frame, median over repeats.\n",
+        "Written by `inlay accuracy` {}, {}, on {}, threads {}; repeats {}, seed {}{}.\n\n"
+        "RMSE is that of linear radiance (1 is full white) over the pixels that objects "
+        "influence, against the converged\nreference. ms is the time of tracing, filter and "
+        "composite of a frame, median over repeats. A method with a width\nstands with the best "
+        "of those tried, which needs the reference; the axis-aligned filters find theirs "
+        "themselves.\n",
         report.program, report.date.substr(0, 10), report.machine.cpu, report.machine.threads,
         report.repeats, report.seed, report.quick ? ", quick" : "");
 }
@@ -44,7 +47,7 @@ std::string head_text(const AccuracyReport& report) {
 std::string work_text(const WorkReport& work) {
     return fmt::format(
         "\n## {}\n\nA {} of {} x {} px, frames {}, B_e {} / rad. The converged reference has {} "
-        "samples and a standard error of {},\nthe truth {} and {}.\n",
+        "samples per pixel\nand a standard error of {}, the truth {} and {}.\n",
         work.name, work.kind, work.width, work.height, fmt::join(work.frames, ", "),
         figure(work.environment_bandwidth, 1), work.converged_samples,
         figure(work.converged_standard_error, 4),
@@ -101,8 +104,8 @@ std::string slopes_text(const WorkReport& work) {
                 row({work.name, shown(cell.method, cell.temporal), errors_text(work.cells, cell),
                      figure(error_slope(work.cells, cell.method, cell.temporal), 2)});
     if (rows.empty()) return "";
-    return "\nError with samples: the slope of log RMSE over log samples; -0.50 is noise alone, "
-           "0.00 bias alone.\n\n" +
+    return "\nError with samples: the slope of log RMSE over log samples; -0.50 is noise of "
+           "independent samples alone, 0.00 bias\nalone.\n\n" +
            table_head({"work", "method", "RMSE at samples", "slope"}) + rows;
 }
 

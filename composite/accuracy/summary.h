@@ -10,8 +10,9 @@
 namespace inlay {
 
 /// How a method's error falls with samples: the slope of log RMSE over log samples through its
-/// cells of the knob `samples` (least squares). -0.5 is noise alone, 0 bias alone. Nothing where
-/// fewer than two of them have an error above 0 over influenced pixels against `converged`.
+/// cells of the knob `samples` (least squares). -0.5 is noise of independent samples alone, 0 bias
+/// alone. Nothing where fewer than two of them have an error above 0 over influenced pixels against
+/// `converged`.
 std::optional<double> error_slope(const std::vector<Cell>& cells, const std::string& method,
                                   bool temporal);
 

@@ -113,6 +113,16 @@ TEST(Resume, MakesAgainWhatWasRemoved) {
     expect_resumed_as_uninterrupted(folder / "out");
 }
 
+TEST(Resume, TakesAFolderForTheSameHoweverItsPathIsWritten) {
+    const TemporaryFolder folder;
+    fs::copy(uninterrupted(), folder / "out", fs::copy_options::recursive);
+    for (const char* written : {"/", "/.", "/rgb/.."}) {
+        const Outcome outcome = replay(tiny_recording().string() + written, tiny_scene(),
+                                       folder / "out", slow + "--resume");
+        EXPECT_EQ(outcome.code, 0) << written << ": " << outcome.err;
+    }
+}
+
 TEST(Resume, RefusesAnotherRun) {
     const auto before = contents(uninterrupted());
     const TemporaryFolder folder;
