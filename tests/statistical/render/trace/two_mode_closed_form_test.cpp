@@ -173,9 +173,10 @@ TEST(TwoModes, SilhouettesKeepRealAndVirtualLightApart) {
     const Pose view = look_at({0, 2, 2}, {0, 0, 0});
     RunningMean coverage, real_only, on_virtual;
     for (std::uint32_t frame = 0; frame < 60; ++frame) {
-        const NoisyLayers layers = sample_scene(scene, half_environment(1, 0), lens_of(1, 1, 1e3),
-                                                view, {64, 1, frame + 1})
-                                       .layers;
+        const NoisyLayers layers =
+            sample_scene(scene, half_environment(1, 0), lens_of(1, 1, 1e3), view,
+                         {.primary = 64, .secondary = 1, .seed = frame + 1})
+                .layers;
         coverage.add(layers.m(0, 0));
         real_only.add(layers.direct.e_r(0, 0).r);
         on_virtual.add(layers.direct.e_rv_virtual(0, 0).r);
