@@ -73,8 +73,9 @@ PreparedScene prepare_scene(const SceneFile& file, const Recording& recording,
         prepared.up = up_of(surface_of(*first), *first, prepared.warnings);
     }
     prepared.scene = resolve_placements(file, surface_of, prepared.up);
-    LoadedEnvironment environment =
-        load_environment(file.environment, prepared.up, anchor.rotation[2]);
+    // A scene with a view of its own is lit as it was filmed, whatever the camera sees first.
+    const glm::dvec3 forward = file.view ? glm::dvec3(0, 0, 1) : anchor.rotation[2];
+    LoadedEnvironment environment = load_environment(file.environment, prepared.up, forward);
     if (environment.replaced_texels > 0)
         prepared.warnings.push_back(replaced_texels_text(environment));
     prepared.environment = std::move(environment.map);

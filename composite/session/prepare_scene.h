@@ -19,7 +19,8 @@ struct PreparedScene {
 
 /// Places the objects on the surfaces of the frames that the scene names (which are tracked from
 /// the first frame for it), and aligns the environment: up as the recording gives it, else as
-/// measured from a plane of the first frame, else minus y of the first camera. Throws Error as
+/// measured from a plane of the first frame, else minus y of the first camera; its +z along the
+/// first view, or along the world's +z for a scene that has a view of its own. Throws Error as
 /// place_on_surface and load_environment, and bad_data for a frame that the recording does not
 /// have.
 PreparedScene prepare_scene(const SceneFile& file, const Recording& recording,

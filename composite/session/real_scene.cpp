@@ -6,6 +6,7 @@
 #include "slam/depth/smooth_normals.h"
 #include "slam/mesh/extract_mesh.h"
 
+#include <bit>
 #include <utility>
 
 namespace inlay {
@@ -65,10 +66,15 @@ SlamStep track_frame_of(SlamState& slam, const RgbdFrame& frame, const Settings&
     return step;
 }
 
+int model_due(int frames_seen, int interval) {
+    if (frames_seen >= interval) return frames_seen - frames_seen % interval;
+    return frames_seen == 0 ? 0 : int(std::bit_floor(unsigned(frames_seen)));
+}
+
 void update_model(TracedModel& model, const SlamState& slam, int frames_seen,
                   const GeometrySettings& settings) {
     if (settings.kind != RealGeometryKind::model) return;
-    const int due = frames_seen - frames_seen % settings.model_interval;
+    const int due = model_due(frames_seen, settings.model_interval);
     if (model.frame == due && !model.mesh->parts().empty()) return;
     auto mesh = std::make_shared<const TriangleMesh>(extract_mesh(slam.volume));
     model.mesh = std::make_shared<const EmbreeScene>(model.cache.place(std::move(mesh)));

@@ -31,6 +31,10 @@ struct TracedModel {
     int frame = -1;  // how many frames the model had seen when it was made
 };
 
+/// The frame whose model stands after `frames_seen` frames: every `interval`-th one, and before the
+/// first of these 1, 2, 4, ..., since a young model grows with every view.
+int model_due(int frames_seen, int interval);
+
 /// Extracts and prepares the model if the settings ask for it and it is due. `frames_seen` counts
 /// the frames since the recording's first, whether or not they were composited.
 void update_model(TracedModel& model, const SlamState& slam, int frames_seen,
