@@ -32,14 +32,6 @@ struct Judge {
     Pose pose;              // true
 };
 
-SamplingSettings converged_sampling(const Judge& judge) {
-    constexpr int secondary = 16;
-    SamplingSettings sampling = judge.settings.trace;
-    sampling.secondary = secondary;
-    sampling.primary = std::max(1, judge.converged_samples / secondary);
-    return sampling;
-}
-
 /// The picture with the truth in place of the stages in `swapped`.
 Image<Rgb> picture(const Judge& judge, const std::set<Stage>& swapped) {
     TrackedFrame frame = swapped.contains(Stage::poses) ? judge.frames.posed : judge.frames.tracked;
@@ -48,9 +40,11 @@ Image<Rgb> picture(const Judge& judge, const std::set<Stage>& swapped) {
             with_true_room(judge.work, frame,
                            swapped.contains(Stage::poses) ? judge.pose : frame.world_from_camera);
     const bool converged = swapped.contains(Stage::sampling) || swapped.contains(Stage::filter);
-    SampledFrame sampled = sample_frame(
-        judge.work, frame, converged ? converged_sampling(judge) : judge.settings.trace,
-        std::uint32_t(frame.frame));
+    SampledFrame sampled =
+        sample_frame(judge.work, frame,
+                     converged ? many_samples(judge.settings.trace, judge.converged_samples)
+                               : judge.settings.trace,
+                     std::uint32_t(frame.frame));
     NoisyLayers& layers = sampled.result.layers;
     layers.samples = judge.settings.trace.primary * judge.settings.trace.secondary;
     FilterSettings filter = judge.settings.filter;

@@ -14,8 +14,6 @@
 namespace inlay {
 namespace {
 
-constexpr int reference_secondary = 16;
-
 /// A picture moved by a fraction of its pixels along (1, 1) / sqrt 2, bilinear, its border
 /// repeated.
 Image<Rgb> moved(const Image<Rgb>& image, double px) {
@@ -56,6 +54,13 @@ double relative_rmse(const Layers& layers, const Layers& reference, Image<Rgb> I
     return power > 0 ? std::sqrt(error / power) : 0;
 }
 
+/// The frame reconstructed without sensor noise or tracking.
+TrackedFrame seen_room(const Work& work, int frame, const Settings& settings) {
+    Settings posed = settings;
+    posed.use_recorded_poses = true;
+    return track_frames(work, {frame}, posed, SensorDepth::exact).at(0);
+}
+
 }  // namespace
 
 Layers light_of(const Work& work, const TrackedFrame& frame, const Settings& settings,
@@ -63,8 +68,7 @@ Layers light_of(const Work& work, const TrackedFrame& frame, const Settings& set
     SamplingSettings sampling = settings.trace;
     FilterSettings filter = settings.filter;
     if (converged_samples > 0) {
-        sampling.secondary = reference_secondary;
-        sampling.primary = std::max(1, converged_samples / reference_secondary);
+        sampling = many_samples(sampling, converged_samples);
         filter.enabled = false;
     }
     const SampledFrame sampled = sample_frame(work, frame, sampling, std::uint32_t(frame.frame));
@@ -121,10 +125,14 @@ FrameBudget frame_budget(const Work& work, const TrackedFrame& frame, const Sett
     FrameBudget budget;
     budget.equation = influenced_rmse(*truth, reference);
     budget.sampling = influenced_rmse(as_reference, composite(photo, found, settings.blend).linear);
+    const Layers seen =
+        light_of(work, seen_room(work, frame.frame, settings), settings, converged_samples);
+    budget.seen = influenced_rmse(*truth, composite(photo, seen, settings.blend).linear);
     budget.displaced_px = displacement_px(work, frame, pose);
     budget.displacement = influenced_rmse(*truth, moved(truth->linear, budget.displaced_px));
+    const double reference_mode = std::max(budget.equation, budget.seen);
     budget.total =
-        slack * std::sqrt(budget.equation * budget.equation + budget.sampling * budget.sampling +
+        slack * std::sqrt(reference_mode * reference_mode + budget.sampling * budget.sampling +
                           budget.displacement * budget.displacement);
     const IrradianceError light = irradiance_error(found, wanted);
     budget.e_r = light.e_r;
@@ -134,9 +142,9 @@ FrameBudget frame_budget(const Work& work, const TrackedFrame& frame, const Sett
 
 std::string budget_line(const FrameBudget& b) {
     return fmt::format(
-        "allowed {:.4f}: equation {:.4f}, samples and filter {:.4f}, {:.2f} px of pose "
-        "and depth {:.4f}; E_R {:.3f}, E_RV {:.3f}",
-        b.total, b.equation, b.sampling, b.displaced_px, b.displacement, b.e_r, b.e_rv);
+        "allowed {:.4f}: equation {:.4f}, room as seen {:.4f}, samples and filter {:.4f}, "
+        "{:.2f} px of pose and depth {:.4f}; E_R {:.3f}, E_RV {:.3f}",
+        b.total, b.equation, b.seen, b.sampling, b.displaced_px, b.displacement, b.e_r, b.e_rv);
 }
 
 }  // namespace inlay

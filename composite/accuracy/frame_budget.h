@@ -9,8 +9,8 @@ namespace inlay {
 
 /// RMSE over the influenced pixels, relative radiance.
 struct FrameBudget {
-    double equation =
-        0;  // eq. 6.2 itself: the reference mode with true room and pose against truth
+    double equation = 0;      // the reference mode with true room and pose: eq. 6.2 itself
+    double seen = 0;          // the same in the room that exact depth and poses have shown so far
     double sampling = 0;      // the setting's samples and filter against that reference mode
     double displaced_px = 0;  // by how much pose and depth are off, in the image
     double displacement = 0;  // the truth against itself, displaced by as much

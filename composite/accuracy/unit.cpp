@@ -1,6 +1,7 @@
 #include "composite/accuracy/unit.h"
 
 #include "composite/blend/differential.h"
+#include "composite/measure/flicker.h"
 #include "render/filter/filter_layers.h"
 
 #include <array>
@@ -12,8 +13,6 @@ namespace inlay {
 namespace {
 
 constexpr std::uint32_t reference_seed_offset = 0xacc0;
-/// Camera rays per pixel of a reference: edges and textures need as many as light does.
-constexpr int reference_secondary = 16;
 /// Frame numbers, far from any recording's, under which a still frame is sampled again.
 constexpr std::uint32_t still_index = 0x40000000;
 
@@ -67,7 +66,10 @@ double still_flicker(const Work& work, const JudgedFrame& frame, const Samplings
     const Made a = make(work, frame.now, *s[1], s[0], plan, cell);
     const Made b = make(work, frame.now, *s[2], s[1], plan, cell);
     const Mask& mask = (frame.converged ? frame.converged : frame.truth)->influenced;
-    return radiance_error(a.picture.linear, b.picture.linear, mask).rmse;
+    const Image<Rgb> still;  // the truth of a still camera does not change
+    FlickerSums sums;
+    add_flicker(sums, {a.picture.linear, still}, {b.picture.linear, still}, mask);
+    return flicker_of(sums).rms;
 }
 
 void judge(const Work& work, const JudgedFrame& frame, const Samplings& taken, const UnitPlan& plan,
@@ -102,10 +104,7 @@ MethodRun run_method(const Work& work, const JudgedFrame& frame, const Samplings
 
 Image<Rgb> converged_half(const Work& work, const TrackedFrame& frame, const Settings& settings,
                           int samples, std::uint32_t half) {
-    SamplingSettings sampling = settings.trace;
-    sampling.secondary = std::min(reference_secondary, samples);
-    sampling.primary = std::max(1, samples / sampling.secondary);
-    sampling.virtual_repeats = 1;
+    SamplingSettings sampling = many_samples(settings.trace, samples);
     sampling.seed += reference_seed_offset + half;
     const SampledFrame sampled = sample_frame(work, frame, sampling, std::uint32_t(frame.frame));
     FilterSettings off = settings.filter;
@@ -136,6 +135,14 @@ SampledFrame sample_frame(const Work& work, const TrackedFrame& frame,
         index);
     sampled.cost = watch.lap();
     return sampled;
+}
+
+SamplingSettings many_samples(SamplingSettings sampling, int samples) {
+    constexpr int most_secondary = 16;
+    sampling.secondary = std::min(most_secondary, samples);
+    sampling.primary = std::max(1, samples / sampling.secondary);
+    sampling.virtual_repeats = 1;
+    return sampling;
 }
 
 Reference converge(const Work& work, const TrackedFrame& frame, const Settings& settings,

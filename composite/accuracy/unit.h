@@ -78,6 +78,10 @@ struct SampledFrame {
 SampledFrame sample_frame(const Work& work, const TrackedFrame& frame,
                           const SamplingSettings& sampling, std::uint32_t index);
 
+/// Settings for `samples` per pixel and their `converged` references: camera rays for edges and
+/// textures as well as for light, and no virtual surface favoured.
+SamplingSettings many_samples(SamplingSettings sampling, int samples);
+
 /// The picture of the two-mode sampler without noise or filter: unfiltered, many samples, in two
 /// halves of another seed.
 Reference converge(const Work& work, const TrackedFrame& frame, const Settings& settings,

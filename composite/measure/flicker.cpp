@@ -19,7 +19,7 @@ glm::dvec3 pixel(const Image<Rgb>& image, std::size_t i) {
     return image.empty() ? glm::dvec3(0) : glm::dvec3(image.pixels[i]);
 }
 
-void check_pair(const JudgedFrame& before, const JudgedFrame& now, const Mask& mask) {
+void check_pair(const ShownFrame& before, const ShownFrame& now, const Mask& mask) {
     check_comparable(before.picture, now.picture, mask);
     require(before.truth.empty() == now.truth.empty(),
             "flicker: one of two consecutive frames has a truth, the other none; both or neither "
@@ -31,7 +31,7 @@ void check_pair(const JudgedFrame& before, const JudgedFrame& now, const Mask& m
 
 }  // namespace
 
-void add_flicker(FlickerSums& sums, const JudgedFrame& before, const JudgedFrame& now,
+void add_flicker(FlickerSums& sums, const ShownFrame& before, const ShownFrame& now,
                  const Mask& mask) {
     check_pair(before, now, mask);
     const Image<Rgb>& reference = now.truth.empty() ? now.picture : now.truth;

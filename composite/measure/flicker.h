@@ -11,7 +11,7 @@ namespace inlay {
 
 /// A frame's picture C and its truth T, both linear. An empty truth stands for one that does not
 /// change: that of a still camera at steady_pixels.
-struct JudgedFrame {
+struct ShownFrame {
     const Image<Rgb>& picture;
     const Image<Rgb>& truth;
 };
@@ -37,7 +37,7 @@ struct Flicker {
 /// flicker; white noise of variance s^2 gives an rms of s sqrt(2). Noise of the truths counts as
 /// the picture's: with a still camera leave them empty. Throws Error (bad_data) when sizes differ,
 /// pictures are empty, or only one of the frames has a truth.
-void add_flicker(FlickerSums& sums, const JudgedFrame& before, const JudgedFrame& now,
+void add_flicker(FlickerSums& sums, const ShownFrame& before, const ShownFrame& now,
                  const Mask& mask = {});
 
 /// Throws Error (bad_data) when nothing was compared.

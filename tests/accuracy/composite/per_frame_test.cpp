@@ -36,7 +36,8 @@ protected:
 
     /// What a failing frame leaves beside the test: pictures, and which stage is to blame.
     void explain(int frame, const Image<Rgb>& picture, const Image<Rgb>& truth) const {
-        const fs::path place = fs::path("failed") / fmt::format("{}.{}", GetParam(), frame);
+        const fs::path place =
+            fs::temp_directory_path() / "inlay_failed" / fmt::format("{}.{}", GetParam(), frame);
         make_folder(place);
         Image<Rgb> difference = picture;
         for (std::size_t i = 0; i < picture.pixels.size(); ++i)

@@ -37,7 +37,7 @@ Image<Rgb> slope(int width, int height, double shift) {
     return image;
 }
 
-Flicker flicker_between(const JudgedFrame& before, const JudgedFrame& now, const Mask& mask = {}) {
+Flicker flicker_between(const ShownFrame& before, const ShownFrame& now, const Mask& mask = {}) {
     FlickerSums sums;
     add_flicker(sums, before, now, mask);
     return flicker_of(sums);
