@@ -2,6 +2,7 @@
 #include "composite/accuracy/accuracy_json.h"
 #include "composite/accuracy/bench.h"
 #include "composite/accuracy/built_in_works.h"
+#include "composite/accuracy/judged_frames.h"
 #include "composite/accuracy/summary.h"
 #include "composite/write/atomic_file.h"
 #include "recordings/base/check.h"
@@ -65,7 +66,7 @@ std::vector<Work> open_works(const AccuracyOptions& o, const Settings& settings)
     for (const std::string& name : built_in_names()) {
         Progress progress("recording " + name + ", frames", built_in.frames, o.common.quiet);
         works.push_back(built_in_work(name, INLAY_SCENES_DIR, fs::path(o.out) / "works", built_in,
-                                      [&](int done) { progress.advance_to(done); }));
+                                      {[&](int done) { progress.advance_to(done); }, interrupted}));
     }
     return works;
 }
@@ -76,8 +77,11 @@ void print_blame(const std::vector<Work>& works, const BenchOptions& options) {
                 work.source.string() +
                     ": has no truth, so no stage can be blamed; record it with "
                     "`inlay record --truth`");
-        for (const int frame : work.truth_frames) {
-            if (options.wanted_frame && !options.wanted_frame(frame)) continue;
+        const auto every = [](int) { return true; };
+        for (const int frame :
+             measured_frames(work, options.wanted_frame ? options.wanted_frame : every)) {
+            if (interrupted())
+                throw Error(ExitCode::interrupted, "accuracy: interrupted between two frames");
             const FrameBlame blame =
                 blame_frame(work, frame, options.settings, options.converged_samples / 2);
             std::cout << work.name << ", " << blame_line(blame) << std::endl;

@@ -24,8 +24,10 @@ void add_render_options(CLI::App& subcommand, RenderOptions& o) {
                     "draft: 4 samples; standard: 16; reference: 1024, unfiltered")
         ->check(CLI::IsMember({"draft", "standard", "reference"}))
         ->capture_default_str();
-    subcommand.add_option("--samples", o.samples,
-                          "samples per pixel in all: 4 primary x N/4 secondary (below 4: N x 1)");
+    subcommand.add_option(
+        "--samples", o.samples,
+        "light samples per pixel of a real surface: 4 primary x N/4 secondary (below 4: "
+        "N x 1); virtual ones get more, see trace.virtual_repeats and trace.coverage");
     subcommand.add_option("--filter", o.filter, "the axis-aligned filter")
         ->check(CLI::IsMember(setting_words("filter.enabled")));
     subcommand.add_option("--constants", o.constants, "of the filter")

@@ -133,7 +133,7 @@ public:
         for (int repeat = 0; repeat < options_.repeats; ++repeat) {
             for (const Row& row : rows) {
                 if (watcher_.interrupted()) return false;
-                units_.push_back(unit(row, repeat));
+                add_unit(row, repeat);
                 watcher_.units_done(++done, total);
             }
         }
@@ -148,6 +148,18 @@ public:
     }
 
 private:
+    /// A setting under which a work cannot be reconstructed is reported, and the rest goes on.
+    void add_unit(const Row& row, int repeat) {
+        try {
+            units_.push_back(unit(row, repeat));
+        } catch (const Error& error) {
+            const bool own = reconstruction_key(row) != default_key(row);
+            if (!own || error.code() != ExitCode::bad_data) throw;
+            watcher_.warn(fmt::format("{}, {}={}: {}", works_[row.work].name, row.knob.name,
+                                      row.value, error.what()));
+        }
+    }
+
     UnitRun unit(const Row& row, int repeat) {
         const fs::path file = unit_file(folder_, works_[row.work], row, repeat);
         if (fs::exists(file)) return unit_from_json(text_of(file), file.string());
@@ -253,11 +265,22 @@ void add_blame(const Work& work, const std::vector<JudgedFrame>& frames,
                                                options.converged_samples / 2));
 }
 
+/// Units and pictures are filed under the names of works.
+void require_own_names(const std::vector<Work>& works) {
+    std::set<std::string> names;
+    for (const Work& work : works)
+        require(names.insert(work.name).second,
+                "two works are named " + work.name + "; rename one, or measure them apart",
+                ExitCode::usage);
+}
+
 }  // namespace
 
 void validate(const BenchOptions& options) {
     validate(options.settings);
     require(options.repeats >= 1, "--repeat must be 1 or more", ExitCode::usage);
+    require(options.converged_samples >= 2, "--reference-samples must be 2 or more",
+            ExitCode::usage);
     std::vector<std::string> known;
     for (const Knob& knob : knobs(false))
         known.push_back(knob.name);
@@ -268,6 +291,7 @@ void validate(const BenchOptions& options) {
 BenchResult run_bench(const std::vector<Work>& works, const BenchOptions& options,
                       const fs::path& folder, const BenchWatcher& watcher) {
     validate(options);
+    require_own_names(works);
     make_folder(folder / "units");
     const RunFacts facts = open_run(works, options, folder);
     Runner runner(works, options, folder, watcher);

@@ -34,13 +34,15 @@ struct BenchWatcher {
 /// of range.
 void validate(const BenchOptions& options);
 
-/// Measures `works` and returns the report; each finished unit is a file in `folder`/units. An
-/// interrupted run returns what is finished with `complete` false; with `resume` the next one
-/// measures only what is missing, and is refused (Error, usage) when anything else has changed.
 struct BenchResult {
     AccuracyReport report;
     bool complete = true;
 };
+
+/// Measures `works` and returns the report; each finished unit is a file in `folder`/units. An
+/// interrupted run returns what is finished with `complete` false; with `resume` the next one
+/// measures only what is missing, and is refused (Error, usage) when works, frames, settings or
+/// knobs have changed.
 BenchResult run_bench(const std::vector<Work>& works, const BenchOptions& options,
                       const std::filesystem::path& folder, const BenchWatcher& watcher);
 

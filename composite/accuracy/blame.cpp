@@ -47,6 +47,7 @@ Image<Rgb> picture(const Judge& judge, const std::set<Stage>& swapped) {
                      std::uint32_t(frame.frame));
     NoisyLayers& layers = sampled.result.layers;
     layers.samples = judge.settings.trace.primary * judge.settings.trace.secondary;
+    layers.virtual_samples = layers.samples * judge.settings.trace.virtual_repeats;
     FilterSettings filter = judge.settings.filter;
     if (swapped.contains(Stage::filter)) filter.enabled = false;
     const Photo photo = swapped.contains(Stage::composite)
@@ -75,6 +76,10 @@ Judge prepare(const Work& work, int frame, const Settings& settings, int converg
         {},
         {},
         true_pose(work, frame)};
+    for (const TrackedFrame* found : {&judge.frames.tracked, &judge.frames.posed})
+        require(found->tracking.status != TrackingStatus::lost,
+                work.name + ": tracking is lost in frame " + std::to_string(frame) +
+                    ", so no stage after it can be blamed");
     auto truth = truth_of_frame(work, frame, judge.frames.tracked.lens);
     auto photograph = true_photograph(work, frame);
     require(

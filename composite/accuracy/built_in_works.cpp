@@ -24,7 +24,7 @@ ordered_json description(const std::string& name, const BuiltInSettings& s) {
 }
 
 void record(const fs::path& scene, const fs::path& folder, const BuiltInSettings& s,
-            const std::function<void(int)>& frame_done) {
+            const RecordWatch& watch) {
     const FilmedScene film =
         film_scene(load_scene_file(scene), scene.string(), {s.size, /*hand_held=*/true});
     RecordSettings settings;
@@ -32,7 +32,10 @@ void record(const fs::path& scene, const fs::path& folder, const BuiltInSettings
     settings.samples = s.samples;
     settings.truth_samples = s.truth_samples;
     settings.truth_frames = {s.truth_frames.begin(), s.truth_frames.end()};
-    record_scene(film, settings, folder, {frame_done, [] { return false; }});
+    const RecordResult recorded = record_scene(film, settings, folder, watch);
+    require(recorded.finished == settings.frames,
+            folder.string() + ": interrupted; the same command goes on from here",
+            ExitCode::interrupted);
 }
 
 }  // namespace
@@ -43,14 +46,14 @@ const std::vector<std::string>& built_in_names() {
 }
 
 Work built_in_work(const std::string& name, const fs::path& scenes, const fs::path& folder,
-                   const BuiltInSettings& settings, const std::function<void(int)>& frame_done) {
+                   const BuiltInSettings& settings, const RecordWatch& watch) {
     const fs::path scene = scenes / (name + ".json");
     const fs::path recording = folder / name;
     const fs::path mark = recording / "record.json";
     const ordered_json wanted = description(name, settings);
     if (!fs::exists(mark)) {
         make_folder(recording);
-        record(scene, recording, settings, frame_done);
+        record(scene, recording, settings, watch);
         write_text(mark, wanted.dump(1) + "\n");
     }
     std::ifstream stream(mark);

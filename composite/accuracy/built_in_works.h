@@ -2,9 +2,9 @@
 #pragma once
 
 #include "composite/accuracy/work.h"
+#include "composite/record/record_scene.h"
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,11 +22,10 @@ struct BuiltInSettings {
 const std::vector<std::string>& built_in_names();
 
 /// Records the scene `name` of `scenes` into `folder`/`name`, unless it stands there complete, and
-/// opens it. `frame_done` is called after each frame that is recorded. Throws Error as open_work,
+/// opens it. Throws Error as open_work, interrupted when `watch` asks to stop,
 /// and usage where the folder holds a recording made with other settings.
-Work built_in_work(
-    const std::string& name, const std::filesystem::path& scenes,
-    const std::filesystem::path& folder, const BuiltInSettings& settings,
-    const std::function<void(int)>& frame_done = [](int) {});
+Work built_in_work(const std::string& name, const std::filesystem::path& scenes,
+                   const std::filesystem::path& folder, const BuiltInSettings& settings,
+                   const RecordWatch& watch = {[](int) {}, [] { return false; }});
 
 }  // namespace inlay

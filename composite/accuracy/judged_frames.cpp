@@ -51,7 +51,8 @@ std::vector<JudgedFrame> tracked_frames(const Work& work, const std::vector<int>
                     ", so nothing can be measured there; choose other --frames");
         if (const auto before = frame_before(work, frame)) {
             const TrackedFrame& previous = tracked(all, *before);
-            if (!objects_moved(work, judged.now, previous)) judged.previous = previous;
+            const bool lost = previous.tracking.status == TrackingStatus::lost;
+            if (!lost && !objects_moved(work, judged.now, previous)) judged.previous = previous;
         }
         judged.truth = truth_of_frame(work, frame, judged.now.lens);
         result.push_back(std::move(judged));

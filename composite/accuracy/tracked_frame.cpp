@@ -27,6 +27,7 @@ TrackedFrame kept(const RgbdFrame& frame, SlamStep step, const SlamState& slam,
     result.lens = frame.lens;
     result.world_from_camera = step.surface.world_from_camera;
     result.photo = std::make_shared<const Photo>(linearise(frame.color));
+    if (step.tracking.status == TrackingStatus::lost) return result;  // there is nothing to trace
     result.room = std::make_shared<const RealScene>(
         describe_real_scene(std::move(step.surface), result.photo->linear, slam, model, settings));
     result.geometry = result.room->geometry;

@@ -29,8 +29,7 @@ Irradiance make_irradiance(int width, int height) {
 
 void store(const PixelSums& sums, int x, int y, NoisyLayers& layers) {
     const std::size_t i = layers.m.index(x, y);
-    layers.m.pixels[i] =
-        sums.looks > 0 ? 1 - float(sums.looks_virtual) / float(sums.looks) : 1.0f;
+    layers.m.pixels[i] = sums.looks > 0 ? 1 - float(sums.looks_virtual) / float(sums.looks) : 1.0f;
     layers.k_v.pixels[i] = sums.albedo.mean() / std::numbers::pi_v<float>;
     layers.s_rv.pixels[i] = sums.glossy_direct.mean() + sums.glossy_indirect.mean();
     layers.glossy_bandwidth.pixels[i] = sums.glossy_bandwidth;
@@ -65,7 +64,7 @@ NoisyLayers make_noisy_layers(const Lens& lens, const Pose& world_from_camera, i
 int dropped(const PixelSums& sums) {
     return sums.direct.e_r.dropped + sums.indirect.e_r.dropped + sums.direct_virtual.dropped +
            sums.indirect_virtual.dropped + sums.glossy_direct.dropped +
-           sums.glossy_indirect.dropped;
+           sums.glossy_indirect.dropped + sums.albedo.dropped;
 }
 
 }  // namespace inlay
