@@ -76,8 +76,15 @@ Layers light_of(const Work& work, const TrackedFrame& frame, const Settings& set
 }
 
 IrradianceError irradiance_error(const Layers& layers, const Layers& reference) {
+    std::size_t covered = 0, lit = 0;
+    for (std::size_t i = 0; i < layers.m.pixels.size(); ++i) {
+        if (layers.m.pixels[i] < 1 || reference.direct.e_r.pixels[i] == Rgb(0)) continue;
+        ++covered;
+        if (layers.direct.e_r.pixels[i] != Rgb(0)) ++lit;
+    }
     return {relative_rmse(layers, reference, &Irradiance::e_r),
-            relative_rmse(layers, reference, &Irradiance::e_rv_real)};
+            relative_rmse(layers, reference, &Irradiance::e_rv_real),
+            covered > 0 ? double(lit) / double(covered) : 0.0};
 }
 
 double displacement_px(const Work& work, const TrackedFrame& frame, const Pose& true_pose) {

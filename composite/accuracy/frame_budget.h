@@ -33,6 +33,7 @@ double displacement_px(const Work& work, const TrackedFrame& frame, const Pose& 
 /// that real surfaces cover whole: root of the mean square error over that of the reference.
 struct IrradianceError {
     double e_r = 0, e_rv = 0;
+    double compared = 0;  // share of the pixels that real surfaces cover whole; the rest are holes
 };
 IrradianceError irradiance_error(const Layers& layers, const Layers& reference);
 

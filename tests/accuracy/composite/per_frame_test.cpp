@@ -76,6 +76,8 @@ protected:
         std::cout << fmt::format(
             "{} {}: relative RMSE of E_R {:.3f}, of E_RV {:.3f}; geometry alone {:.3f}, {:.3f}\n",
             work_.name, frame.frame, error.e_r, error.e_rv, geometry.e_r, geometry.e_rv);
+        // Where the sensor saw nothing there is no irradiance; elsewhere there must be.
+        EXPECT_GT(error.compared, 0.7);
         // The two causes add as squares; a tenth more for what they share.
         EXPECT_LT(error.e_r, 1.1 * std::hypot(geometry.e_r, budget.e_r));
         EXPECT_LT(error.e_rv, 1.1 * std::hypot(geometry.e_rv, budget.e_rv));
