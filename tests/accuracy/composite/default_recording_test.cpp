@@ -82,8 +82,9 @@ TEST_P(DefaultRecording, CompositeIsCloseToTheSceneWithTheObjectsReallyInIt) {
         // is left is silhouettes (a pixel's width of error all around), sensor noise in the real
         // geometry, and bounces beyond the first.
         const double allowed = e.photograph / 8;
-        // Truth must be clean enough to judge by that: its noise, which is taken out of the mean
-        // square, makes up less than a ninth of what is allowed.
+        // Truth must be clean enough to judge: its noise, which is taken out of the mean square,
+        // makes up less than a quarter of it, and less than a ninth of what is allowed.
+        EXPECT_LT(e.noise, e.composite / 2);
         EXPECT_LT(e.noise, allowed / 3);
         EXPECT_LT(std::sqrt(e.composite * e.composite - e.noise * e.noise), allowed);
     }
