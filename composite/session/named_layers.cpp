@@ -37,8 +37,11 @@ const std::string noisy_suffix = "_noisy";
 const Receiver* main_receiver(const NoisyLayers& noisy, std::size_t pixel) {
     const Receiver& first = noisy.m.pixels[pixel] > 0.5f ? noisy.real : noisy.virtual_;
     const Receiver& second = noisy.m.pixels[pixel] > 0.5f ? noisy.virtual_ : noisy.real;
-    if (first.object.pixels[pixel] != 0) return &first;
-    return second.object.pixels[pixel] != 0 ? &second : nullptr;
+    const auto seen = [&](const Receiver& r) {
+        return !r.object.empty() && r.object.pixels[pixel] != 0;
+    };
+    if (seen(first)) return &first;
+    return seen(second) ? &second : nullptr;
 }
 
 const Image<glm::vec3>& add_vectors(NamedLayers& out, const OutputFrame& frame, bool normals) {

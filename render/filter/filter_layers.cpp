@@ -46,7 +46,7 @@ Receivers prepare(const NoisyLayers& now, const NoisyLayers* previous, Receiver 
     if (ignores_curvature(kind, settings))
         result.now.curvature = {Image<float>(now.lens.width, now.lens.height),
                                 Image<float>(now.lens.width, now.lens.height)};
-    if (previous == nullptr || result.now.empty) return result;
+    if (previous == nullptr || result.now.empty || (previous->*kind).object.empty()) return result;
     const Receiver before = completed(previous->*kind, settings);
     result.source = matching_pixels(result.now, now.world_from_camera, *previous, before, settings);
     result.previous = resampled(result.now, before, result.source);
@@ -183,7 +183,8 @@ Image<float> of_larger_cover(const Image<float>& m, const Image<float>& real,
 Image<float> smooth_both(const Frames& frames, LightKind kind, Layers& result) {
     constexpr std::array<Layer, 2> on_real{&Irradiance::e_r, &Irradiance::e_rv_real};
     constexpr std::array<Layer, 1> on_virtual{&Irradiance::e_rv_virtual};
-    const Image<float> real = smooth_light(frames, frames.real, on_real, kind, result);
+    Image<float> real = smooth_light(frames, frames.real, on_real, kind, result);
+    if (frames.now.k_v.empty()) return real;  // no virtual surface is seen
     const Image<float> of_virtual = smooth_light(frames, frames.virtual_, on_virtual, kind, result);
     return of_larger_cover(frames.now.m, real, of_virtual);
 }
@@ -192,6 +193,7 @@ Image<float> smooth_both(const Frames& frames, LightKind kind, Layers& result) {
 /// them.
 void smooth_glossy(const Frames& frames, Layers& result) {
     const NoisyLayers& now = frames.now;
+    if (now.s_rv.empty()) return;
     if (frames.virtual_.now.empty) {
         result.s_rv = Image<Rgb>(now.lens.width, now.lens.height, Rgb(0));
         return;

@@ -20,7 +20,7 @@ void require_size(const NoisyLayers& layers, const Image<Pixel>& image, const ch
 void check(const NoisyLayers& layers, const Irradiance& light) {
     require_size(layers, light.e_r, "e_r");
     require_size(layers, light.e_rv_real, "e_rv_real");
-    require_size(layers, light.e_rv_virtual, "e_rv_virtual");
+    if (!layers.k_v.empty()) require_size(layers, light.e_rv_virtual, "e_rv_virtual");
 }
 
 void check(const NoisyLayers& layers, const Receiver& receiver) {
@@ -35,18 +35,21 @@ void check(const NoisyLayers& layers, const Receiver& receiver) {
 
 void require_layer_sizes(const NoisyLayers& layers) {
     require_size(layers, layers.m, "m");
-    require_size(layers, layers.k_v, "k_v");
-    require_size(layers, layers.s_rv, "s_rv");
-    require_size(layers, layers.glossy_bandwidth, "glossy_bandwidth");
     check(layers, layers.direct);
     check(layers, layers.indirect);
     check(layers, layers.real);
+    if (layers.k_v.empty()) return;
+    require_size(layers, layers.k_v, "k_v");
     check(layers, layers.virtual_);
+    if (layers.s_rv.empty()) return;
+    require_size(layers, layers.s_rv, "s_rv");
+    require_size(layers, layers.glossy_bandwidth, "glossy_bandwidth");
 }
 
 void require_unshadowed(const NoisyLayers& layers) {
     require_size(layers, layers.unshadowed.real, "unshadowed.real");
-    require_size(layers, layers.unshadowed.virtual_, "unshadowed.virtual_");
+    if (!layers.k_v.empty())
+        require_size(layers, layers.unshadowed.virtual_, "unshadowed.virtual_");
 }
 
 }  // namespace inlay

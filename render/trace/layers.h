@@ -47,9 +47,11 @@ struct NoisyLayers {
     Pose world_from_camera;
     int samples = 0;          // per pixel in all: primary x secondary
     int virtual_samples = 0;  // the same where virtual surfaces receive; 0: as `samples`
-    Image<float> m;   // M: share of all camera rays that met real surfaces or nothing, 0..1
-    Image<Rgb> k_v;   // k_V: mean albedo / pi over the samples on virtual surfaces
-    Image<Rgb> s_rv;  // S_RV: mean glossy radiance over the samples on virtual surfaces
+    Image<float> m;           // M: share of all camera rays that met real surfaces or nothing, 0..1
+    Image<Rgb> k_v;   // k_V: mean albedo / pi over the samples on virtual surfaces; empty, as all
+                      // that is said of such surfaces, where none can be seen
+    Image<Rgb> s_rv;  // S_RV: mean glossy radiance over the samples on virtual surfaces; empty, as
+                      // B_rho, where no glossy one can be seen
     Image<float> glossy_bandwidth;  // B_rho (1/rad) of the glossy lobe, 0: no glossy surface here
     Irradiance direct, indirect;
     Receiver real;                      // R and RV together: the larger cos/r of both modes

@@ -49,10 +49,11 @@ void add_light_sample(const SamplePass& pass, const Landing& from, const LightSa
         sums.direct.add(real_only, with_virtual);
         return;
     }
+    sums.direct_virtual.add(with_virtual);
+    if (!pass.settings.glossy_seen) return;
     if (shadow.traced && shadow.distance() == no_hit)
         glossy = eval_glossy(from.bsdf, from.frame, light.direction) * light.radiance /
                  (light.pdf + pdf_glossy(from.bsdf, from.frame, light.direction));
-    sums.direct_virtual.add(with_virtual);
     sums.glossy_direct.add(glossy);
 }
 

@@ -15,14 +15,29 @@ void store(const ReceiverSums& sums, std::size_t i, Receiver& receiver) {
     receiver.occluder_indirect.pixels[i] = sums.occluder_indirect;
 }
 
+/// What is known of the virtual surfaces at a pixel.
+void store_virtual(const PixelSums& sums, std::size_t i, NoisyLayers& layers) {
+    layers.k_v.pixels[i] = sums.albedo.mean() / std::numbers::pi_v<float>;
+    layers.direct.e_rv_virtual.pixels[i] = sums.direct_virtual.mean();
+    layers.indirect.e_rv_virtual.pixels[i] = sums.indirect_virtual.mean();
+    if (!layers.s_rv.empty()) {
+        layers.s_rv.pixels[i] = sums.glossy_direct.mean() + sums.glossy_indirect.mean();
+        layers.glossy_bandwidth.pixels[i] = sums.glossy_bandwidth;
+    }
+    if (!layers.unshadowed.virtual_.empty())
+        layers.unshadowed.virtual_.pixels[i] = sums.unshadowed_virtual.mean();
+    store(sums.virtual_, i, layers.virtual_);
+}
+
 Receiver make_receiver(int width, int height) {
     return {Image<std::uint32_t>(width, height), Image<glm::vec3>(width, height),
             Image<glm::vec3>(width, height), Image<float>(width, height),
             Image<float>(width, height)};
 }
 
-Irradiance make_irradiance(int width, int height) {
-    return {Image<Rgb>(width, height), Image<Rgb>(width, height), Image<Rgb>(width, height)};
+Irradiance make_irradiance(int width, int height, bool on_virtual) {
+    return {Image<Rgb>(width, height), Image<Rgb>(width, height),
+            on_virtual ? Image<Rgb>(width, height) : Image<Rgb>{}};
 }
 
 }  // namespace
@@ -30,34 +45,32 @@ Irradiance make_irradiance(int width, int height) {
 void store(const PixelSums& sums, int x, int y, NoisyLayers& layers) {
     const std::size_t i = layers.m.index(x, y);
     layers.m.pixels[i] = sums.looks > 0 ? 1 - float(sums.looks_virtual) / float(sums.looks) : 1.0f;
-    layers.k_v.pixels[i] = sums.albedo.mean() / std::numbers::pi_v<float>;
-    layers.s_rv.pixels[i] = sums.glossy_direct.mean() + sums.glossy_indirect.mean();
-    layers.glossy_bandwidth.pixels[i] = sums.glossy_bandwidth;
     layers.direct.e_r.pixels[i] = sums.direct.e_r.mean();
     layers.direct.e_rv_real.pixels[i] = sums.direct.e_rv.mean();
-    layers.direct.e_rv_virtual.pixels[i] = sums.direct_virtual.mean();
     layers.indirect.e_r.pixels[i] = sums.indirect.e_r.mean();
     layers.indirect.e_rv_real.pixels[i] = sums.indirect.e_rv.mean();
-    layers.indirect.e_rv_virtual.pixels[i] = sums.indirect_virtual.mean();
-    if (!layers.unshadowed.real.empty()) {
+    if (!layers.unshadowed.real.empty())
         layers.unshadowed.real.pixels[i] = sums.unshadowed_real.mean();
-        layers.unshadowed.virtual_.pixels[i] = sums.unshadowed_virtual.mean();
-    }
     store(sums.real, i, layers.real);
-    store(sums.virtual_, i, layers.virtual_);
+    if (!layers.k_v.empty()) store_virtual(sums, i, layers);
 }
 
-NoisyLayers make_noisy_layers(const Lens& lens, const Pose& world_from_camera, int samples) {
+NoisyLayers make_noisy_layers(const Lens& lens, const Pose& world_from_camera,
+                              const SamplingSettings& settings) {
     const int w = lens.width, h = lens.height;
     NoisyLayers layers;
     layers.lens = lens;
     layers.world_from_camera = world_from_camera;
-    layers.samples = samples;
+    layers.samples = settings.primary * settings.secondary;
     layers.m = Image<float>(w, h, 1.0f);
-    layers.k_v = layers.s_rv = Image<Rgb>(w, h);
+    layers.direct = layers.indirect = make_irradiance(w, h, settings.virtual_seen);
+    layers.real = make_receiver(w, h);
+    if (!settings.virtual_seen) return layers;
+    layers.k_v = Image<Rgb>(w, h);
+    layers.virtual_ = make_receiver(w, h);
+    if (!settings.glossy_seen) return layers;
+    layers.s_rv = Image<Rgb>(w, h);
     layers.glossy_bandwidth = Image<float>(w, h);
-    layers.direct = layers.indirect = make_irradiance(w, h);
-    layers.real = layers.virtual_ = make_receiver(w, h);
     return layers;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/trace/layers.h"
+#include "render/trace/two_mode_sampler.h"
 
 #include <glm/glm.hpp>
 
@@ -59,8 +60,9 @@ struct PixelSums {
 /// Writes a pixel's means into the layers.
 void store(const PixelSums& sums, int x, int y, NoisyLayers& layers);
 
-/// Layers of `lens`'s size, all zero.
-NoisyLayers make_noisy_layers(const Lens& lens, const Pose& world_from_camera, int samples);
+/// Layers of `lens`'s size, all zero; of what `settings` says no camera ray meets, empty images.
+NoisyLayers make_noisy_layers(const Lens& lens, const Pose& world_from_camera,
+                              const SamplingSettings& settings);
 
 /// Samples that were left out.
 int dropped(const PixelSums& sums);

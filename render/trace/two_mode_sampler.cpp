@@ -52,8 +52,9 @@ struct TilePass {
         const RayPacket rays = camera_rays(tile.area, scene.lens, scene.world_from_camera,
                                            pixel_shifts(keys(sample), position_in_pixel));
         tile.rays.primary += std::uint64_t(std::popcount(rays.active));
-        return land(scene.real, scene.virtual_objects, rays, tile.area.pixels,
-                    settings.depth_tolerance);
+        static const EmbreeScene none;
+        return land(scene.real, settings.virtual_seen ? scene.virtual_objects : none, rays,
+                    tile.area.pixels, settings.depth_tolerance);
     }
 
     void add_samples(const Landings& landings, int first_sample) const {
@@ -62,7 +63,7 @@ struct TilePass {
                             tile.sums, tile.rays};
             add_direct(pass);
             add_indirect(pass);
-            add_glossy(pass);
+            if (settings.glossy_seen) add_glossy(pass);
         }
     }
 
@@ -180,13 +181,11 @@ TwoModeResult sample_two_modes(const TwoModeScene& scene, const SamplingSettings
                                std::uint32_t frame) {
     validate(settings);
     const Lens& lens = scene.lens;
-    TwoModeResult result{
-        make_noisy_layers(lens, scene.world_from_camera, settings.primary * settings.secondary),
-        {}};
+    TwoModeResult result{make_noisy_layers(lens, scene.world_from_camera, settings), {}};
     result.layers.virtual_samples = result.layers.samples * settings.virtual_repeats;
     if (settings.unshadowed) {
         const Image<Rgb> black(lens.width, lens.height, Rgb(0));
-        result.layers.unshadowed = {black, black};
+        result.layers.unshadowed = {black, settings.virtual_seen ? black : Image<Rgb>{}};
     }
     const int rows = tile_rows(lens);
     std::vector<RayCounts> row_rays{std::size_t(rows)};

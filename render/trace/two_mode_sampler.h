@@ -26,6 +26,10 @@ struct SamplingSettings {
     float ignored_luminance =
         0.1f;  // occluders of light below this share of the mean do not narrow the filter
     bool unshadowed = false;  // also sum direct light without shadows; nothing else changes
+    // What a plan may leave out; where it says so rightly, the result is the same to the bit.
+    bool virtual_seen = true;  // false: no camera ray can meet a virtual surface; layers of such
+                               // surfaces are empty images
+    bool glossy_seen = true;   // false: none can meet a glossy one; S_RV and B_rho are empty
 };
 
 /// Throws Error unless counts are positive (coverage: 0 or more) and shares within 0..1.

@@ -48,7 +48,7 @@ TEST(Store, DividesEachSumByItsOwnCount) {
     sums.albedo.add(Rgb(0.5f));
     sums.glossy_direct.add(Rgb(1));
     sums.glossy_indirect.add(Rgb(2));
-    NoisyLayers layers = make_noisy_layers(lens_of(2, 2, 1), {}, 4);
+    NoisyLayers layers = make_noisy_layers(lens_of(2, 2, 1), {}, {});
     store(sums, 1, 0, layers);
     EXPECT_EQ(layers.m(1, 0), 0.75f);
     EXPECT_EQ(layers.direct.e_r(1, 0), Rgb(2));
@@ -66,7 +66,7 @@ TEST(Store, NormalsThatCancelStillGiveAUnitVector) {
     sums.looks = 2;
     sums.real.hits = 2;
     sums.real.object = 1;
-    NoisyLayers layers = make_noisy_layers(lens_of(1, 1, 1), {}, 1);
+    NoisyLayers layers = make_noisy_layers(lens_of(1, 1, 1), {}, {});
     store(sums, 0, 0, layers);
     EXPECT_NEAR(glm::length(layers.real.normal(0, 0)), 1, 1e-6);
 }
