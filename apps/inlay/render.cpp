@@ -1,4 +1,5 @@
 // `inlay render`: one view of a scene, without a recording.
+#include "composite/plan/explain.h"
 #include "composite/session/named_layers.h"
 #include "composite/session/prepare_scene.h"
 #include "composite/session/render_view.h"
@@ -111,7 +112,8 @@ int run(const RenderCommandOptions& o) {
             ExitCode::usage);
     if (!o.explain) require_picture_name(o.out);
     const SceneFile file =
-        load_scene_file(o.scene, {o.render.assets.begin(), o.render.assets.end()});
+        load_scene_file(o.scene, {o.render.assets.begin(), o.render.assets.end()},
+                        o.explain ? SceneUse::explain : SceneUse::simulate);
     for (const std::string& warning : file.warnings)
         spdlog::warn("{}", warning);
     require(file.view.has_value(),
@@ -122,7 +124,9 @@ int run(const RenderCommandOptions& o) {
     const EnvironmentSampler environment = make_environment_sampler(light.map);
     const SceneView view{scene, environment, file.view->lens, file.view->world_from_camera, o.time};
     if (o.explain) {
-        std::cout << explain(plan_effects(facts_of_view(view), settings.filter));
+        SceneFacts facts = facts_of_view(view);
+        facts.requests = file.requests;
+        std::cout << explain(plan_effects(facts, settings.trace, settings.filter));
         return 0;
     }
     catch_interrupts();

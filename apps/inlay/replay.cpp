@@ -1,4 +1,5 @@
 // `inlay replay`: the main job, a recording with virtual objects in it.
+#include "composite/plan/explain.h"
 #include "composite/session/named_layers.h"
 #include "composite/session/prepare_scene.h"
 #include "composite/session/stop_watch.h"
@@ -19,6 +20,7 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 namespace inlay {
 namespace {
@@ -66,13 +68,27 @@ Settings settings_of(const ReplayOptions& o) {
     return settings_from(o.render, o.common, chosen);
 }
 
-/// Of the recording's second frame, which unlike the first has one before it.
-EffectPlan plan_of(const Session& session, const std::vector<double>& times) {
-    const double before = times.front(), time = times.size() > 1 ? times[1] : before;
-    SceneFacts facts =
-        gather_facts(session.scene, session.environment.mean_luminance > 0, time, before);
-    facts.first_frame = times.size() == 1;
-    return plan_effects(facts, session.settings.filter);
+/// Where the camera first stands; all that is known of its path before it is tracked.
+std::optional<Pose> first_pose(const RecordingInfo& info, const Settings& settings) {
+    if (!settings.use_recorded_poses) return info.world_from_camera.front().value_or(Pose{});
+    for (const std::optional<Pose>& pose : info.world_from_camera)
+        if (pose) return pose;
+    return std::nullopt;
+}
+
+/// As the camera first stands and the scene is then, with a frame before it as all but the first
+/// have.
+EffectPlan plan_of(const Session& session, const RecordingInfo& info,
+                   const SceneRequests& requests) {
+    const std::optional<Pose> pose = first_pose(info, session.settings);
+    const double first = info.times.front();
+    SceneFacts facts = gather_facts(
+        {session.scene, session.bounds, info.lens, pose.value_or(Pose{}), first,
+         info.times.size() > 1 ? info.times[1] : first, session.environment.mean_luminance > 0});
+    facts.tracked = pose.has_value();
+    facts.first_frame = info.times.size() == 1;
+    facts.requests = requests;
+    return plan_effects(facts, session.settings.trace, session.settings.filter);
 }
 
 void print_totals(const ReplayOptions& o, const Totals& t) {
@@ -179,10 +195,11 @@ int run(const ReplayOptions& o) {
     const std::vector<int> frames =
         shard_of(select_frames(parse_frames(o.common.frames), recording.info.frames), o.shard);
     const SceneFile file =
-        load_scene_file(o.scene, {o.render.assets.begin(), o.render.assets.end()});
+        load_scene_file(o.scene, {o.render.assets.begin(), o.render.assets.end()},
+                        o.explain ? SceneUse::explain : SceneUse::simulate);
     if (settings.use_recorded_poses) warn_of_missing_poses(recording.info, frames);
     Session session = session_of(file, recording, settings);
-    const EffectPlan plan = plan_of(session, recording.info.times);
+    const EffectPlan plan = plan_of(session, recording.info, file.requests);
     if (o.explain) {
         std::cout << explain(plan);
         return 0;

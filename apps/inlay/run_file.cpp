@@ -1,5 +1,6 @@
 #include "apps/inlay/run_file.h"
 
+#include "composite/plan/explain.h"
 #include "composite/write/atomic_file.h"
 #include "recordings/base/check.h"
 
@@ -55,11 +56,9 @@ Json describe_scene(const RunDescription& run) {
 }
 
 Json describe(const RecordingInfo& recording, const RunDescription& run) {
-    Json settings, plan = Json::array();
+    Json settings;
     for (const SettingRow& row : setting_rows())
         settings[row.name] = row.get(run.settings);
-    for (const PlannedEffect& e : run.plan.effects)
-        plan.push_back({{"effect", e.name}, {"in", e.in}, {"reason", e.reason}});
     return {{"version", INLAY_VERSION},
             {"command", run.command},
             {"frames", run.frames},
@@ -69,7 +68,7 @@ Json describe(const RecordingInfo& recording, const RunDescription& run) {
             {"settings", settings},
             {"layers", run.layers},
             {"recording", describe(recording)},
-            {"plan", plan}};
+            {"plan", Json::parse(to_json_text(run.plan))}};
 }
 
 std::string shown(const Json& value) {

@@ -2,6 +2,7 @@
 
 #include "composite/accuracy/machine.h"
 #include "composite/accuracy/report_pictures.h"
+#include "composite/plan/explain.h"
 #include "composite/write/atomic_file.h"
 #include "composite/write/write_png.h"
 #include "recordings/base/check.h"
@@ -35,13 +36,11 @@ Json pictures_json(const std::vector<PicturePair>& pairs) {
 
 /// The form stands in apps/report/README.md.
 Json json_of(const RunPage& page) {
-    Json settings = Json::object(), frames = Json::array(), plan = Json::array();
+    Json settings = Json::object(), frames = Json::array();
     for (const SettingRow& row : setting_rows())
         settings[row.name] = row.get(page.settings);
     for (const FrameReport& frame : page.frames)
         frames.push_back(Json::parse(to_json_line(frame)));
-    for (const PlannedEffect& effect : page.plan.effects)
-        plan.push_back({{"effect", effect.name}, {"in", effect.in}, {"reason", effect.reason}});
     return {{"version", 1},
             {"kind", "replay"},
             {"program", INLAY_VERSION},
@@ -52,7 +51,7 @@ Json json_of(const RunPage& page) {
             {"scene", page.scene},
             {"frames", frames},
             {"pictures", pictures_json(page.pictures)},
-            {"plan", plan}};
+            {"plan", Json::parse(to_json_text(page.plan))}};
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "composite/accuracy/judged_frames.h"
 
-#include "composite/plan/effect_plan.h"
+#include "composite/plan/scene_facts.h"
 #include "recordings/base/check.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 constexpr int photo_samples = 256;  // of the picture that stands for a scene's photograph
 
 bool objects_moved(const Work& work, const TrackedFrame& now, const TrackedFrame& before) {
-    return gather_facts(work.scene, true, now.time, before.time).moving;
+    return virtual_objects_moved(work.scene, now.time, before.time);
 }
 
 std::optional<int> frame_before(const Work& work, int frame) {

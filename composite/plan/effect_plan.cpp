@@ -1,50 +1,15 @@
 #include "composite/plan/effect_plan.h"
 
+#include "composite/plan/effect_rules.h"
+
 #include <algorithm>
 
 namespace inlay {
-namespace {
 
-struct EffectRule {
-    const char* name;
-    bool (*in)(const SceneFacts&, const FilterSettings&);
-    const char* because_in;
-    const char* because_out;
-};
-
-bool visible(const SceneFacts& f) { return f.objects > 0 && f.tracked; }
-
-/// A new effect adds a row here, and its work asks EffectPlan::has() for it.
-const EffectRule rules[] = {
-    {"environment_direct",
-     [](const SceneFacts& f, const FilterSettings&) { return visible(f) && f.lit; },
-     "virtual objects in light of the environment",
-     "no virtual object, no light, or tracking lost"},
-    {"environment_indirect", [](const SceneFacts& f, const FilterSettings&) { return visible(f); },
-     "virtual and real surfaces light each other", "no virtual object, or tracking lost"},
-    {"axis_aligned_filter",
-     [](const SceneFacts& f, const FilterSettings& s) { return visible(f) && s.enabled; },
-     "irradiances are noisy", "nothing to filter, or --filter off"},
-    {"temporal_filter",
-     [](const SceneFacts& f, const FilterSettings& s) {
-         return visible(f) && s.enabled && s.temporal && !f.first_frame && !f.moving;
-     },
-     "the frame before is at hand, and nothing virtual has moved since",
-     "no frame before, something virtual has moved since, or --temporal off"},
-};
-
-}  // namespace
-
-SceneFacts gather_facts(const VirtualScene& scene, bool lit, double time, double time_before) {
-    SceneFacts facts;
-    facts.lit = lit;
-    for (const SceneObject& object : scene.objects) {
-        if (object.real) continue;
-        ++facts.objects;
-        facts.moving =
-            facts.moving || transform_at(object, time) != transform_at(object, time_before);
-    }
-    return facts;
+RaysPerPixel operator+(const RaysPerPixel& a, const RaysPerPixel& b) {
+    return {a.primary + b.primary, a.virtual_shadow + b.virtual_shadow,
+            a.virtual_indirect + b.virtual_indirect, a.real_shadow + b.real_shadow,
+            a.real_indirect + b.real_indirect};
 }
 
 bool EffectPlan::has(const std::string& name) const {
@@ -59,20 +24,27 @@ std::vector<std::string> EffectPlan::names() const {
     return result;
 }
 
-EffectPlan plan_effects(const SceneFacts& facts, const FilterSettings& filter) {
-    EffectPlan plan;
-    for (const EffectRule& rule : rules) {
-        const bool in = rule.in(facts, filter);
-        plan.effects.push_back({rule.name, in, in ? rule.because_in : rule.because_out});
-    }
-    return plan;
+RaysPerPixel EffectPlan::rays() const {
+    RaysPerPixel sum;
+    for (const PlannedEffect& e : effects)
+        sum = sum + e.cost.rays;
+    return sum;
 }
 
-std::string explain(const EffectPlan& plan) {
-    std::string text;
-    for (const PlannedEffect& e : plan.effects)
-        text += std::string(e.in ? "in   " : "out  ") + e.name + ": " + e.reason + "\n";
-    return text;
+EffectPlan plan_effects(const SceneFacts& facts, const SamplingSettings& sampling,
+                        const FilterSettings& filter) {
+    EffectPlan plan{facts, {}};
+    const PlanInput input{facts, sampling, filter};
+    for (const EffectRule& rule : effect_rules()) {
+        PlannedEffect effect{rule.name, false, rule.cost != nullptr, false, {}, rule.worth};
+        const Verdict verdict = rule.decide(input);
+        effect.reason = verdict.reason;
+        effect.in = verdict.called_for && effect.built;
+        effect.asked = verdict.called_for && !effect.built;
+        if (effect.in) effect.cost = rule.cost(input);
+        plan.effects.push_back(std::move(effect));
+    }
+    return plan;
 }
 
 }  // namespace inlay

@@ -11,6 +11,12 @@ EnvironmentSampler no_light() {
     return sampler;
 }
 
+SamplingSettings planned_sampling(const EffectPlan& plan, SamplingSettings settings) {
+    settings.virtual_seen = plan.has("virtual_surfaces");
+    settings.glossy_seen = plan.has("glossy");
+    return settings;
+}
+
 Layers planned_layers(const EffectPlan& plan, const SampledFrames& frames, const Image<Rgb>& photo,
                       double environment_bandwidth, const FilterSettings& settings) {
     if (!frames.now) {

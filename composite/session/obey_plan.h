@@ -4,11 +4,15 @@
 #include "composite/plan/effect_plan.h"
 #include "render/sample/environment_sampler.h"
 #include "render/trace/layers.h"
+#include "render/trace/two_mode_sampler.h"
 
 namespace inlay {
 
 /// A sampler for light that is not there: black, and without a sample to trace a shadow ray for.
 EnvironmentSampler no_light();
+
+/// The settings without the work on surfaces that the plan says no camera ray can meet.
+SamplingSettings planned_sampling(const EffectPlan& plan, SamplingSettings settings);
 
 /// What a frame's layers are made of. Null: nothing was simulated, or there is no frame before.
 struct SampledFrames {

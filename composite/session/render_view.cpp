@@ -24,7 +24,7 @@ void sample(const SceneView& view, const EmbreeScene& real_objects,
     const EnvironmentSampler darkness = no_light();
     const RealGeometry real =
         exact_real_geometry(real_objects, view.environment, first_path_dimension);
-    SamplingSettings sampling = settings.trace;
+    SamplingSettings sampling = planned_sampling(out.plan, settings.trace);
     sampling.depth_tolerance = 0;  // this depth is exact
     const bool lit = out.plan.has("environment_direct");
     TwoModeResult sampled = sample_two_modes({view.lens, view.world_from_camera, real,
@@ -39,7 +39,8 @@ void sample(const SceneView& view, const EmbreeScene& real_objects,
 
 SceneFacts facts_of_view(const SceneView& view) {
     SceneFacts facts =
-        gather_facts(view.scene, view.environment.mean_luminance > 0, view.time, view.time);
+        gather_facts({view.scene, bounds_of(view.scene), view.lens, view.world_from_camera,
+                      view.time, view.time, view.environment.mean_luminance > 0});
     facts.first_frame = true;
     return facts;
 }
@@ -52,7 +53,7 @@ OutputFrame render_view(const SceneView& view, const Settings& settings, int pho
     EmbreeSceneCache structures;
     const EmbreeScene real_objects = structures.place(view.scene, view.time, /*real=*/true);
     const EmbreeScene virtual_objects = structures.place(view.scene, view.time, /*real=*/false);
-    out.plan = plan_effects(facts_of_view(view), settings.filter);
+    out.plan = plan_effects(facts_of_view(view), settings.trace, settings.filter);
     out.ms.plan = watch.lap();
 
     const PictureView camera{view.lens, view.world_from_camera, settings.trace.seed, 0};

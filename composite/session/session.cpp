@@ -16,8 +16,8 @@ NoisyLayers sample(Session& session, const RealScene& real, const RgbdFrame& fra
     const bool lit = out.plan.has("environment_direct");
     const TwoModeScene scene{frame.lens, real.surface->world_from_camera, real.geometry, objects,
                              lit ? session.environment : session.no_light};
-    TwoModeResult result =
-        sample_two_modes(scene, session.settings.trace, std::uint32_t(frame.index));
+    const SamplingSettings sampling = planned_sampling(out.plan, session.settings.trace);
+    TwoModeResult result = sample_two_modes(scene, sampling, std::uint32_t(frame.index));
     out.rays = result.rays;
     out.dropped_samples = result.layers.dropped_samples;
     return std::move(result.layers);
@@ -30,6 +30,7 @@ Session start_session(const Settings& settings, VirtualScene scene, EnvironmentM
     Session session;
     session.settings = settings;
     session.scene = std::move(scene);
+    session.bounds = bounds_of(session.scene);
     if (settings.filter.enabled)
         session.environment_bandwidth = environment_bandwidth(environment.radiance);
     session.environment = make_environment_sampler(std::move(environment));
@@ -50,12 +51,13 @@ OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work) {
     const std::shared_ptr<const NoisyLayers> previous = std::exchange(session.previous, nullptr);
     if (work == FrameWork::track) return out;
 
-    SceneFacts facts = gather_facts(session.scene, session.environment.mean_luminance > 0,
-                                    frame.time, session.time_before);
+    SceneFacts facts =
+        gather_facts({session.scene, session.bounds, frame.lens, slam.tracking.world_from_camera,
+                      frame.time, session.time_before, session.environment.mean_luminance > 0});
     session.time_before = frame.time;
     facts.tracked = slam.tracking.status != TrackingStatus::lost;
     facts.first_frame = !previous;
-    out.plan = plan_effects(facts, settings.filter);
+    out.plan = plan_effects(facts, settings.trace, settings.filter);
     Photo photo = linearise(frame.color);
     out.ms.plan = watch.lap();
 

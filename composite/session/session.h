@@ -16,7 +16,8 @@ namespace inlay {
 
 struct Session {
     Settings settings;
-    VirtualScene scene;  // objects where they stand, in the recording's world
+    VirtualScene scene;                // objects where they stand, in the recording's world
+    std::vector<ObjectBounds> bounds;  // of the scene's objects, in their order
     EnvironmentSampler environment;
     EnvironmentSampler no_light;       // in its place where the plan has no direct light
     double environment_bandwidth = 0;  // B_e, 1/rad; 0 without the filter

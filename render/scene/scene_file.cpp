@@ -18,16 +18,6 @@ namespace {
                 node.place + ": " + what + " cannot be done by this version; " + remedy);
 }
 
-void refuse_what_cannot_be_done(const JsonNode& document) {
-    if (const JsonNode* n = find(document, "lights"))
-        refuse_unable(*n, "area lights",
-                      "remove \"lights\" and light the scene by its environment");
-    if (const JsonNode* n = find(document, "medium"))
-        refuse_unable(*n, "a scattering medium", "remove \"medium\"");
-    if (const JsonNode* n = find(document, "camera"))
-        refuse_unable(*n, "defocus and motion blur", "remove \"camera\"");
-}
-
 GaussianLobe lobe_of(const JsonNode& node) {
     require_known_keys(node, {"direction", "sharpness", "radiance"});
     return {direction_of(member(node, "direction")), number_of(member(node, "sharpness"), {0, 1e5}),
@@ -118,15 +108,17 @@ EnvironmentSpec environment_of(const JsonNode& node, const AssetFolders& assets)
     return spec;
 }
 
-SceneFile load_scene_file(const fs::path& file, const std::vector<fs::path>& more_folders) {
+SceneFile load_scene_file(const fs::path& file, const std::vector<fs::path>& more_folders,
+                          SceneUse use) {
     const JsonNode document = read_json(file);
     require_known_keys(document, {"version", "environment", "objects", "lights", "medium", "camera",
                                   "view", "path"});
     const JsonNode& version = member(document, "version");
     if (number_of(version, {-1e9, 1e9}) != 1) refuse(version, describe(version), "version 1");
-    refuse_what_cannot_be_done(document);
     const AssetFolders assets = asset_folders(file, more_folders);
     SceneFile scene;
+    scene.requests = requests_of(document, assets);
+    if (use == SceneUse::simulate) refuse_what_cannot_be_done(document, scene.requests);
     scene.environment = environment_of(member(document, "environment"), assets);
     if (const JsonNode* n = find(document, "objects")) read_objects(scene, *n, assets);
     if (const JsonNode* n = find(document, "view")) scene.view = view_of(*n);

@@ -8,6 +8,7 @@
 #include "recordings/environment/environment_tools.h"
 #include "recordings/synthetic/camera_path.h"
 #include "render/scene/asset_folders.h"
+#include "render/scene/scene_requests.h"
 #include "render/scene/virtual_scene.h"
 
 #include <glm/glm.hpp>
@@ -62,18 +63,24 @@ struct SceneFile {
     std::vector<SceneEntry> entries;
     std::optional<View> view;
     std::vector<PathKey> path;  // times increase strictly; may be empty
+    SceneRequests requests;
     std::vector<std::string> warnings;
     std::vector<AssetFile> files;  // all that were opened, the scene file itself excepted
 };
+
+/// What a description is read for: what cannot be simulated is refused, or only listed.
+enum class SceneUse { simulate, explain };
 
 /// Reads a scene description (version 1) with the files it names, which lie beside it or in
 /// `asset_folders`. `motion` is a list of keyframes {time, transform}; with `place` it is
 /// {"relative_to": "place", "keyframes": [...]}, whose transforms act within the base frame: x and
 /// z along the surface, y up, +z towards the camera of the placing frame before `turn_deg`. Throws
 /// Error: input_missing; bad_data with the place in the document for unknown keys, wrong types,
-/// values out of range, and whatever the program cannot do yet.
+/// values out of range, and, unless the scene is only to be explained, whatever it asks for that
+/// the program cannot do yet.
 SceneFile load_scene_file(const std::filesystem::path& file,
-                          const std::vector<std::filesystem::path>& asset_folders = {});
+                          const std::vector<std::filesystem::path>& asset_folders = {},
+                          SceneUse use = SceneUse::simulate);
 
 struct LoadedEnvironment {
     EnvironmentMap map;

@@ -20,6 +20,10 @@ Pose pose_of(const JsonNode& node);             // 16 numbers, row-major, rigid
 glm::dmat4 transform_of(const JsonNode& node);  // 16 numbers, row-major; scale, no shear or mirror
 
 EnvironmentSpec environment_of(const JsonNode& node, const AssetFolders& assets);
+/// Lights, medium and camera of a description. Throws where they are not well formed.
+SceneRequests requests_of(const JsonNode& document, const AssetFolders& assets);
+/// Throws Error (bad_data) that names the first thing of `asked` that cannot be simulated.
+void refuse_what_cannot_be_done(const JsonNode& document, const SceneRequests& asked);
 Material material_of(const JsonNode& node, const AssetFolders& assets);
 bool textured(const Material& material);
 SceneEntry entry_of(const JsonNode& node, const AssetFolders& assets,

@@ -216,9 +216,14 @@ TEST(Replay, DescribesTheRun) {
     EXPECT_EQ(run["recording"]["frames"], 6);
     EXPECT_THAT(run["recording"]["fingerprint"].get<std::string>(), SizeIs(16));
     EXPECT_THAT(run["scene"]["fingerprint"].get<std::string>(), SizeIs(16));
-    EXPECT_THAT(run["plan"], SizeIs(4));
-    for (const json& effect : run["plan"])
+    EXPECT_THAT(run["plan"], SizeIs(15));  // the effects of composite/plan/effect_rules.cpp
+    for (const json& effect : run["plan"]) {
         EXPECT_THAT(effect["reason"].get<std::string>(), testing::Not(IsEmpty()));
+        EXPECT_THAT(effect["worth"].get<std::string>(), testing::Not(IsEmpty()));
+        if (!effect["in"]) EXPECT_THAT(effect["passes"], IsEmpty());
+    }
+    EXPECT_EQ(run["plan"][1]["effect"], "environment_indirect");
+    EXPECT_EQ(run["plan"][1]["rays_per_pixel"]["real_indirect"], 4);  // as --samples 4 says
 }
 
 TEST(Replay, ExplainsAndWritesNothing) {

@@ -82,11 +82,62 @@ TEST(BadScene, KeysAndVersionsAreChecked) {
         expect_refused(bad);
 }
 
+const std::string polygon_light =
+    R"({"polygon": [[0, 1, 0], [1, 1, 0], [0, 1, 1]], "radiance": [1, 1, 1]})";
+
+TEST(BadScene, WhatAsksForNothingIsNoReasonToRefuse) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "s.json")
+        << scene(light + R"(, "lights": [], "medium": {"scattering": [0, 0, 0], "g": 0.3},)" +
+                 R"("camera": {"aperture_radius": 0, "shutter": 0})");
+    const SceneRequests asked = load_scene_file(folder / "s.json").requests;
+    EXPECT_EQ(asked.polygon_lights + asked.mesh_lights, 0);
+    EXPECT_FALSE(asked.medium);
+}
+
+TEST(BadScene, WhatIsOnlyExplainedIsListed) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "s.json")
+        << scene(light + R"(, "lights": [)" + polygon_light + R"(], "medium": {)" +
+                 R"("absorption": [0, 0, 1]}, "camera": {"aperture_radius": 0.004,)" +
+                 R"("focus_distance": 0.8, "shutter": 0.02})");
+    const SceneRequests asked = load_scene_file(folder / "s.json", {}, SceneUse::explain).requests;
+    EXPECT_EQ(asked.polygon_lights, 1);
+    EXPECT_EQ(asked.mesh_lights, 0);
+    EXPECT_TRUE(asked.medium);
+    EXPECT_EQ(asked.aperture_radius, 0.004);
+    EXPECT_EQ(asked.focus_distance, 0.8);
+    EXPECT_EQ(asked.shutter, 0.02);
+}
+
+TEST(BadScene, LightsMediaAndCamerasAreChecked) {
+    for (const BadScene& bad : std::vector<BadScene>{
+             {scene(light + R"(, "lights": {})"), {"lights", "an array"}},
+             {scene(light + R"(, "lights": [{"radiance": [1, 1, 1]}])"), {"lights[0]", "no shape"}},
+             {scene(light + R"(, "lights": [{"polygon": [[0, 0, 0]], "radiance": [1, 1, 1]}])"),
+              {"lights[0].polygon", "three corners"}},
+             {scene(light + R"(, "lights": [{"mesh": "../a.obj", "radiance": [1, 1, 1]}])"),
+              {"lights[0].mesh", ".."}},
+             {scene(light + R"(, "medium": {"scatering": [1, 1, 1]})"),
+              {"medium.scatering", "\"scattering\""}},
+             {scene(light + R"(, "medium": {"scattering": [1, -1, 1]})"),
+              {"medium.scattering[1]", "-1"}},
+             {scene(light + R"(, "camera": {"shutter": -1})"), {"camera.shutter", "-1"}},
+             {scene(light + R"(, "camera": {"aperture_radius": 0.1})"),
+              {"camera", "\"focus_distance\""}}})
+        expect_refused(bad);
+}
+
 TEST(BadScene, WhatCannotBeDoneYetIsSaid) {
     for (const BadScene& bad : std::vector<BadScene>{
-             {scene(light + R"(, "lights": [])"), {"lights", "cannot be done by this version"}},
-             {scene(light + R"(, "medium": {})"), {"medium", "cannot be done by this version"}},
-             {scene(light + R"(, "camera": {})"), {"camera", "cannot be done by this version"}},
+             {scene(light + R"(, "lights": [)" + polygon_light + "]"),
+              {"s.json: lights", "(polygon_light) cannot be done by this version"}},
+             {scene(light + R"(, "medium": {"scattering": [1, 1, 1]})"),
+              {"s.json: medium", "(medium) cannot be done by this version"}},
+             {scene(light + R"(, "camera": {"aperture_radius": 0.01, "focus_distance": 1})"),
+              {"s.json: camera", "(defocus) cannot be done by this version"}},
+             {scene(light + R"(, "camera": {"shutter": 0.02})"),
+              {"s.json: camera", "(motion_blur) cannot be done by this version"}},
              {scene(R"("environment": {"estimate": true})"),
               {"environment.estimate", "this version"}},
              {scene(R"("environment": {"mirrored_ball": "b.png"})"),
