@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -15,41 +16,50 @@ namespace {
 
 constexpr int columns_at_once = 64;
 
-/// to[i step] = the sum of from[j step] over |j - i| <= radius, by adding what enters and taking
-/// away what leaves.
-void slide(const double* from, double* to, int count, int step, int radius) {
-    double sum = 0;
-    for (int i = 0; i < std::min(radius, count); ++i)
-        sum += from[i * step];
-    for (int i = 0; i < count; ++i) {
-        if (i + radius < count) sum += from[(i + radius) * step];
-        if (i - radius > 0) sum -= from[(i - radius - 1) * step];
-        to[i * step] = sum;
+/// `count` places along a line, at each of which `lanes` neighbors in memory are summed alike.
+struct Line {
+    int count = 0, step = 0, lanes = 1;
+    double* at(double* image, int i) const { return image + std::ptrdiff_t(i) * step; }
+};
+
+/// Replaces every value by the sum over the `radius` places before and after it, as far as the line
+/// goes. Sums run forwards and backwards within blocks as long as a window, so that a window is the
+/// end of one block and the beginning of the next: nothing outside of it leaves a rounding error in
+/// its sum, as what enters and leaves a running sum would.
+void window_sums(double* image, const Line& line, int radius) {
+    const int length = 2 * radius + 1, lanes = line.lanes;
+    std::vector<double> ahead(std::size_t(line.count) * std::size_t(lanes)), back(ahead.size());
+    const auto add = [&](std::vector<double>& sums, int i, int neighbor, bool first) {
+        for (int k = 0; k < lanes; ++k)
+            sums[std::size_t(i * lanes + k)] =
+                line.at(image, i)[k] + (first ? 0.0 : sums[std::size_t(neighbor * lanes + k)]);
+    };
+    for (int i = 0; i < line.count; ++i)
+        add(ahead, i, i - 1, i % length == 0);
+    for (int i = line.count - 1; i >= 0; --i)
+        add(back, i, i + 1, i == line.count - 1 || (i + 1) % length == 0);
+    for (int i = 0; i < line.count; ++i) {
+        const int first = std::max(0, i - radius), last = std::min(line.count - 1, i + radius);
+        const bool split = first / length != last / length;
+        const bool whole = first % length == 0;  // from the beginning of its block
+        for (int k = 0; k < lanes; ++k) {
+            const double end = ahead[std::size_t(last * lanes + k)];
+            const double begin = back[std::size_t(first * lanes + k)];
+            line.at(image, i)[k] = split ? begin + end : (whole ? end : begin);
+        }
     }
 }
 
 /// Sums over squares of `radius` px around each pixel, as far as they lie within the image.
 void box_sum(Image<double>& image, int radius) {
-    Image<double> along_rows(image.width, image.height);
-    parallel_rows(image.height,
-                  [&](int y) { slide(&image(0, y), &along_rows(0, y), image.width, 1, radius); });
+    parallel_rows(image.height, [&](int y) {
+        window_sums(&image(0, y), {image.width, 1, 1}, radius);
+    });
     const int blocks = (image.width + columns_at_once - 1) / columns_at_once;
     parallel_for(blocks, [&](int block) {
         const int begin = block * columns_at_once;
-        const int count = std::min(columns_at_once, image.width - begin);
-        std::array<double, columns_at_once> sum{};
-        const auto add = [&](int y, double sign) {
-            const double* row = &along_rows(begin, y);
-            for (int x = 0; x < count; ++x)
-                sum[std::size_t(x)] += sign * row[x];
-        };
-        for (int y = 0; y < std::min(radius, image.height); ++y)
-            add(y, 1);
-        for (int y = 0; y < image.height; ++y) {
-            if (y + radius < image.height) add(y + radius, 1);
-            if (y - radius > 0) add(y - radius - 1, -1);
-            std::copy_n(sum.begin(), count, &image(begin, y));
-        }
+        const int lanes = std::min(columns_at_once, image.width - begin);
+        window_sums(&image(begin, 0), {image.height, image.width, lanes}, radius);
     });
 }
 

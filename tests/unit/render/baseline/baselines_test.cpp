@@ -116,6 +116,25 @@ TEST(Baselines, LeaveEqualModesEqualToTheBitBeyondTheReachOfAChange) {
     }
 }
 
+TEST(Baselines, GuidedFilterForgetsWhatLiesBeyondItsReach) {
+    // A sum that adds what enters its window and takes away what leaves would keep the rounding
+    // error of light this bright, 1e-16 of it, which is far above that of the light around.
+    const NoisyLayers now = noisy_plane(96, 48, spacing, 8);
+    NoisyLayers bright = now;
+    for (int y = 20; y < 24; ++y) {
+        for (int x = 30; x < 35; ++x)
+            bright.direct.e_r(x, y) = Rgb(1e12f);
+    }
+    const Layers plain = guided_filter(now, 3), changed = guided_filter(bright, 3);
+    for (int y = 0; y < 48; ++y) {
+        for (int x = 0; x < 96; ++x) {
+            const bool reached = x >= 24 && x < 41 && y >= 14 && y < 30;
+            EXPECT_TRUE(reached || plain.direct.e_r(x, y) == changed.direct.e_r(x, y))
+                << x << ' ' << y;
+        }
+    }
+}
+
 /// Variance of the red direct E_R, 12 px and more from the border.
 double variance_within(const Image<Rgb>& image) {
     double sum = 0, squares = 0, count = 0;
