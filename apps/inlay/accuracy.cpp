@@ -15,8 +15,11 @@
 #include "apps/report/report_page.h"
 #include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -55,38 +58,100 @@ BenchOptions bench_options(const AccuracyOptions& o) {
     return bench;
 }
 
-/// The named works, or the built-in ones, which are recorded beside the results.
-std::vector<Work> open_works(const AccuracyOptions& o, const Settings& settings) {
+/// Frames that a run names have truth.
+BuiltInSettings built_in_settings(const AccuracyOptions& o) {
+    BuiltInSettings built_in;
+    if (o.quick) built_in.truth_samples = 256;
+    if (o.common.frames.empty()) return built_in;
+    const FrameList wanted = parse_frames(o.common.frames);
+    built_in.truth_frames.clear();
+    for (int frame = 0; frame < built_in.frames; ++frame)
+        if (wanted.contains(frame)) built_in.truth_frames.push_back(frame);
+    require(!built_in.truth_frames.empty(),
+            "accuracy: none of the frames " + o.common.frames + " is in 0-" +
+                std::to_string(built_in.frames - 1),
+            ExitCode::usage);
+    return built_in;
+}
+
+/// The named works, or the built-in ones, which are recorded in `folder`.
+std::vector<Work> open_works(const AccuracyOptions& o, const Settings& settings,
+                             const fs::path& folder) {
     std::vector<Work> works;
     for (const std::string& path : o.works)
         works.push_back(open_work(path, settings, o.scene));
     if (!o.works.empty()) return works;
-    BuiltInSettings built_in;
-    if (o.quick) built_in.truth_samples = 256;
+    const BuiltInSettings built_in = built_in_settings(o);
     for (const std::string& name : built_in_names()) {
         Progress progress("recording " + name + ", frames", built_in.frames, o.common.quiet);
-        works.push_back(built_in_work(name, INLAY_SCENES_DIR, fs::path(o.out) / "works", built_in,
+        works.push_back(built_in_work(name, INLAY_SCENES_DIR, folder, built_in,
                                       {[&](int done) { progress.advance_to(done); }, interrupted}));
     }
     return works;
 }
 
-void print_blame(const std::vector<Work>& works, const BenchOptions& options) {
-    for (const Work& work : works) {
-        require(!work.truth_frames.empty(),
-                work.source.string() +
-                    ": has no truth, so no stage can be blamed; record it with "
-                    "`inlay record --truth`");
-        const auto every = [](int) { return true; };
-        for (const int frame :
-             measured_frames(work, options.wanted_frame ? options.wanted_frame : every)) {
-            if (interrupted())
-                throw Error(ExitCode::interrupted, "accuracy: interrupted between two frames");
-            const FrameBlame blame =
-                blame_frame(work, frame, options.settings, options.converged_samples / 2);
-            std::cout << work.name << ", " << blame_line(blame) << std::endl;
-        }
+/// Calls `found` with each frame's blame as soon as it is known.
+std::vector<FrameBlame> blame_frames(const Work& work, const BenchOptions& options,
+                                     const std::function<void(const FrameBlame&)>& found) {
+    require(!work.truth_frames.empty(),
+            work.source.string() +
+                ": has no truth, so no stage can be blamed; record it with "
+                "`inlay record --truth`");
+    const auto every = [](int) { return true; };
+    std::vector<FrameBlame> frames;
+    for (const int frame :
+         measured_frames(work, options.wanted_frame ? options.wanted_frame : every)) {
+        if (interrupted())
+            throw Error(ExitCode::interrupted, "accuracy: interrupted between two frames");
+        frames.push_back(
+            blame_frame(work, frame, options.settings, std::max(1, options.converged_samples / 2)));
+        found(frames.back());
     }
+    return frames;
+}
+
+void print_blame(const std::vector<Work>& works, const BenchOptions& options, bool as_json) {
+    if (!as_json) std::cout << blame_table_head();
+    std::vector<WorkBlame> blames;
+    for (const Work& work : works)
+        blames.push_back({work.name, blame_frames(work, options, [&](const FrameBlame& blame) {
+                              if (!as_json)
+                                  std::cout << blame_table_row(work.name, blame) << std::flush;
+                          })});
+    if (as_json) std::cout << to_json_text(blames);
+}
+
+/// A folder that goes when its owner does.
+class TemporaryFolder {
+public:
+    TemporaryFolder()
+        : path(fs::temp_directory_path() / ("inlay-accuracy-" + std::to_string(::getpid()))) {
+        make_folder(path);
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;  // what cannot be removed stays
+        fs::remove_all(path, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    const fs::path path;
+};
+
+void warn_of(const std::vector<Work>& works) {
+    for (const Work& work : works)
+        for (const std::string& warning : work.warnings)
+            spdlog::warn("{}: {}", work.name, warning);
+}
+
+/// The built-in works need a folder: that of the results, or one that does not stay.
+int blame_alone(const AccuracyOptions& o, const BenchOptions& options) {
+    std::optional<TemporaryFolder> temporary;
+    fs::path folder = fs::path(o.out) / "works";
+    if (o.out.empty() && o.works.empty()) folder = temporary.emplace().path;
+    const std::vector<Work> works = open_works(o, options.settings, folder);
+    warn_of(works);
+    print_blame(works, options, o.common.json);
+    return 0;
 }
 
 void print_summary(const AccuracyReport& report) {
@@ -97,6 +162,8 @@ void print_summary(const AccuracyReport& report) {
                 "{}{:.1f} times as long",
                 work.name, e.method, e.temporal ? " with the previous frame" : "", e.error,
                 e.filtered_ms, e.beyond ? "more than " : "", e.speed_up);
+        for (const FrameVerdict& verdict : work.verdicts)
+            spdlog::info("{}, {}", work.name, verdict_line(verdict));
         for (const FrameBlame& blame : work.blame)
             spdlog::info("{}, {}", work.name, blame_line(blame));
     }
@@ -130,19 +197,15 @@ int measure(const AccuracyOptions& o, const std::vector<Work>& works, const Benc
 
 int run(const AccuracyOptions& o) {
     apply(o.common);
-    require(!o.out.empty(), "accuracy: --out is missing: the folder to write", ExitCode::usage);
     const BenchOptions options = bench_options(o);
     validate(options);
+    require(o.blame_only || !o.out.empty(), "accuracy: --out is missing: the folder to write",
+            ExitCode::usage);
     catch_interrupts();
+    if (o.blame_only) return blame_alone(o, options);
     make_folder(o.out);
-    const std::vector<Work> works = open_works(o, options.settings);
-    for (const Work& work : works)
-        for (const std::string& warning : work.warnings)
-            spdlog::warn("{}: {}", work.name, warning);
-    if (o.blame_only) {
-        print_blame(works, options);
-        return 0;
-    }
+    const std::vector<Work> works = open_works(o, options.settings, fs::path(o.out) / "works");
+    warn_of(works);
     return measure(o, works, options);
 }
 
@@ -166,8 +229,9 @@ std::function<int()> add_accuracy(CLI::App& subcommand) {
         ->allow_extra_args(false);
     subcommand.add_flag("--quick", o->quick, "few samples, few knobs, one repeat");
     subcommand.add_flag("--resume", o->resume, "go on with the run that the folder holds");
-    subcommand.add_flag("--blame", o->blame_only,
-                        "print which stage each frame's error comes from, and stop");
+    subcommand.add_flag(
+        "--blame", o->blame_only,
+        "print which stage each frame's error comes from, and stop; needs no --out");
     add_common_options(subcommand, o->common);
     return [o] { return run(*o); };
 }

@@ -121,6 +121,8 @@ int run(RecordOptions& o) {
     for (const std::string& warning : scene.warnings)
         spdlog::warn("{}", warning);
     const FilmedScene film = film_scene(scene, file.string(), {size_of(o.size), !o.still});
+    for (const std::string& warning : film.warnings)
+        spdlog::warn("{}", warning);
     o.record.seed = o.common.seed;
     o.record.sensor_noise = !o.no_noise;
     o.record.truth_frames = frames_of(o.truth, o.record.frames);

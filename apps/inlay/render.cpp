@@ -76,7 +76,8 @@ void write_report(const RenderCommandOptions& o, const Settings& settings, const
                     settings,
                     out.plan,
                     {frame},
-                    {{0, encode(out.camera), out.composite.display}}});
+                    {{0, encode(out.camera), out.composite.display}},
+                    "render"});
 }
 
 void print_totals(const RenderCommandOptions& o, const OutputFrame& out) {

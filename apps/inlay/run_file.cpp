@@ -2,9 +2,9 @@
 
 #include "composite/plan/explain.h"
 #include "composite/write/atomic_file.h"
+#include "composite/write/file_content.h"
 #include "recordings/base/check.h"
 
-#include "apps/inlay/file_content.h"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

@@ -43,6 +43,7 @@ Json json_of(const RunPage& page) {
         frames.push_back(Json::parse(to_json_line(frame)));
     return {{"version", 1},
             {"kind", "replay"},
+            {"command", page.command},
             {"program", INLAY_VERSION},
             {"date", utc_now()},
             {"machine", Json::parse(to_json_text(this_machine()))},

@@ -25,6 +25,7 @@ struct RunPage {
     EffectPlan plan;
     std::vector<FrameReport> frames;  // ascending
     std::vector<PicturePair> pictures;
+    std::string command = "replay";  // or render
 };
 
 /// Four times the distance of each channel's code values, at most 255.

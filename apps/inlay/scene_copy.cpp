@@ -1,9 +1,9 @@
 #include "apps/inlay/scene_copy.h"
 
 #include "composite/write/atomic_file.h"
+#include "composite/write/file_content.h"
 #include "recordings/base/check.h"
 
-#include "apps/inlay/file_content.h"
 #include <nlohmann/json.hpp>
 
 #include <map>

@@ -65,6 +65,10 @@ ordered_json list_of(const std::vector<Item>& items, ordered_json (*item_json)(c
     return list;
 }
 
+ordered_json json_of(const FailedRepeat& f) {
+    return {{"repeat", f.repeat}, {"message", f.message}};
+}
+
 ordered_json json_of(const Cell& c) {
     ordered_json json{{"id", c.id},
                       {"knob", c.knob},
@@ -84,6 +88,7 @@ ordered_json json_of(const Cell& c) {
     json["truth"] = json_of(c.truth);
     json["flicker"] = number(c.flicker);
     json["frames"] = list_of(c.frames, json_of);
+    json["failed_repeats"] = list_of(c.failed_repeats, json_of);
     json["failed"] = failed ? ordered_json(c.failed) : ordered_json();
     return json;
 }
@@ -132,6 +137,37 @@ ordered_json blame_json(const std::vector<FrameBlame>& frames) {
     return list;
 }
 
+ordered_json json_of(const BudgetedFigure& figure) {
+    return {{"figure", figure.name},
+            {"value", number(figure.value)},
+            {"allowed", number(figure.allowed)}};
+}
+
+ordered_json json_of(const FrameVerdict& v) {
+    const FrameBudget& b = v.budget;
+    return {{"frame", v.frame},
+            {"kept", keeps_budget(v)},
+            {"figures", list_of(figures_of(v), json_of)},
+            {"photograph_rmse", number(v.photograph_rmse)},
+            {"compared", number(v.light.compared)},
+            {"parts",
+             {{"equation", number(b.equation)},
+              {"room_as_seen", number(b.seen)},
+              {"sampling", number(b.sampling)},
+              {"displacement", number(b.displacement)},
+              {"displaced_px", number(b.displaced_px)},
+              {"largest_displaced_px", number(b.bounds.displaced_px)}}}};
+}
+
+/// Null where there is none.
+ordered_json budget_json(const std::vector<FrameVerdict>& verdicts) {
+    return verdicts.empty() ? ordered_json() : list_of(verdicts, json_of);
+}
+
+ordered_json json_of(const WorkBlame& work) {
+    return {{"name", work.work}, {"blame", blame_json(work.frames)}};
+}
+
 ordered_json estimate_json(const std::optional<EstimateQuality>& quality) {
     if (!quality) return {};
     ordered_json frames = ordered_json::array();
@@ -164,6 +200,7 @@ ordered_json json_of(const WorkReport& w) {
             {"equal_time", list_of(prices.equal_time, json_of)},
             {"pictures", list_of(w.pictures, json_of)},
             {"blame", blame_json(w.blame)},
+            {"budget", budget_json(w.verdicts)},
             {"estimate", estimate_json(w.estimate)}};
 }
 
@@ -188,6 +225,11 @@ std::string to_json_text(const AccuracyReport& report) {
                             {"quick", report.quick},
                             {"methods", list_of(methods(), json_of)},
                             {"works", list_of(report.works, json_of)}};
+    return json.dump(1) + "\n";
+}
+
+std::string to_json_text(const std::vector<WorkBlame>& works) {
+    const ordered_json json{{"version", 1}, {"kind", "blame"}, {"works", list_of(works, json_of)}};
     return json.dump(1) + "\n";
 }
 

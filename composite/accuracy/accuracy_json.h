@@ -4,6 +4,7 @@
 #include "composite/accuracy/blame.h"
 #include "composite/accuracy/cell.h"
 #include "composite/accuracy/error_estimate.h"
+#include "composite/accuracy/frame_verdict.h"
 #include "composite/accuracy/machine.h"
 #include "composite/accuracy/price_list.h"
 #include "composite/accuracy/work.h"
@@ -31,6 +32,7 @@ struct WorkReport {
     std::vector<Cell> cells;
     std::vector<ReportPicture> pictures;
     std::vector<FrameBlame> blame;
+    std::vector<FrameVerdict> verdicts;  // of the frames with truth and virtual objects in view
     std::optional<EstimateQuality> estimate;
 };
 
@@ -45,5 +47,15 @@ struct AccuracyReport {
 };
 
 std::string to_json_text(const AccuracyReport& report);
+
+/// Of a work, by its name.
+struct WorkBlame {
+    std::string work;
+    std::vector<FrameBlame> frames;
+};
+
+/// The blame tables alone: {"version", "kind": "blame", "works": [{"name", "blame"}]}, where blame
+/// is as in accuracy.json.
+std::string to_json_text(const std::vector<WorkBlame>& works);
 
 }  // namespace inlay

@@ -1,16 +1,15 @@
 #include "composite/accuracy/bench.h"
 
 #include "composite/accuracy/judged_frames.h"
-#include "composite/accuracy/report_pictures.h"
 #include "composite/accuracy/run_file.h"
 #include "composite/accuracy/unit_json.h"
+#include "composite/accuracy/work_report.h"
 #include "composite/write/atomic_file.h"
 #include "recordings/base/check.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -210,61 +209,6 @@ private:
     Reconstructions reconstructions_;
 };
 
-/// Root of the mean over frames of the squared standard errors.
-double standard_error(const std::vector<JudgedFrame>& frames,
-                      std::optional<Reference> JudgedFrame::*kind) {
-    double sum = 0;
-    int count = 0;
-    for (const JudgedFrame& frame : frames) {
-        if (!(frame.*kind)) continue;
-        const double error = influenced_standard_error(*(frame.*kind));
-        sum += error * error;
-        ++count;
-    }
-    return count > 0 ? std::sqrt(sum / count) : 0;
-}
-
-void warn_of_left_out(const Work& work, const std::vector<JudgedFrame>& frames,
-                      const BenchWatcher& watcher) {
-    for (const JudgedFrame& frame : frames)
-        if (frame.truth && frame.truth->left_out > 0)
-            watcher.warn(
-                fmt::format("{}: {} pixels of frame {}'s truth are not finite and are "
-                            "left out",
-                            work.name, frame.truth->left_out, frame.now.frame));
-}
-
-WorkReport report_of(const Work& work, const std::vector<JudgedFrame>& frames,
-                     const std::vector<UnitRun>& units, const BenchOptions& options) {
-    WorkReport report;
-    report.name = work.name;
-    report.kind = work.recording ? "recording" : "scene";
-    report.width = frames.front().now.lens.width;
-    report.height = frames.front().now.lens.height;
-    for (const JudgedFrame& frame : frames)
-        report.frames.push_back(frame.now.frame);
-    report.environment_bandwidth = work.environment_bandwidth;
-    report.converged_samples = options.converged_samples;
-    report.truth_samples = work.truth_samples;
-    report.converged_standard_error = standard_error(frames, &JudgedFrame::converged);
-    report.truth_standard_error = standard_error(frames, &JudgedFrame::truth);
-    std::vector<UnitRun> own;
-    for (const UnitRun& unit : units)
-        if (unit.work == work.name) own.push_back(unit);
-    report.cells = cells_of(own);
-    return report;
-}
-
-void add_blame(const Work& work, const std::vector<JudgedFrame>& frames,
-               const BenchOptions& options, WorkReport& report) {
-    report.estimate = check_estimate(work, frames, options.settings);
-    if (!work.recording || !work.knows_room) return;
-    for (const JudgedFrame& frame : frames)
-        if (frame.truth)
-            report.blame.push_back(blame_frame(work, frame.now.frame, options.settings,
-                                               options.converged_samples / 2));
-}
-
 /// Units and pictures are filed under the names of works.
 void require_own_names(const std::vector<Work>& works) {
     std::set<std::string> names;
@@ -303,13 +247,8 @@ BenchResult run_bench(const std::vector<Work>& works, const BenchOptions& option
     result.complete = runner.measure();
     if (!result.complete) return result;
     for (std::size_t w = 0; w < works.size(); ++w) {
-        const std::vector<JudgedFrame>& frames = runner.default_frames(w);
-        warn_of_left_out(works[w], frames, watcher);
-        WorkReport report = report_of(works[w], frames, runner.units(), options);
-        report.pictures =
-            report_pictures(works[w], frames.front(), report.cells, options.settings, folder);
-        if (options.blame) add_blame(works[w], frames, options, report);
-        result.report.works.push_back(std::move(report));
+        result.report.works.push_back(report_work(
+            works[w], {runner.default_frames(w), runner.units()}, options, folder, watcher));
     }
     return result;
 }

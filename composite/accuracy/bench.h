@@ -18,7 +18,7 @@ struct BenchOptions {
     std::vector<std::string> only;          // names of methods and knobs; empty: all
     std::function<bool(int)> wanted_frame;  // empty: two of each work
     int converged_samples = 2048;           // per pixel, of the reference
-    bool blame = true;                      // and the estimate without truth
+    bool blame = true;                      // budgets, and the estimate without truth too
     bool resume = false;
     std::string program;  // version, for the report
 };
@@ -41,8 +41,8 @@ struct BenchResult {
 
 /// Measures `works` and returns the report; each finished unit is a file in `folder`/units. An
 /// interrupted run returns what is finished with `complete` false; with `resume` the next one
-/// measures only what is missing, and is refused (Error, usage) when works, frames, settings or
-/// knobs have changed.
+/// measures only what is missing, and is refused (Error, usage) when works or what their files
+/// hold, frames, settings or knobs have changed.
 BenchResult run_bench(const std::vector<Work>& works, const BenchOptions& options,
                       const std::filesystem::path& folder, const BenchWatcher& watcher);
 

@@ -1,5 +1,6 @@
 #include "composite/accuracy/built_in_works.h"
 
+#include "composite/accuracy/work_fingerprint.h"
 #include "composite/record/film_scene.h"
 #include "composite/write/atomic_file.h"
 #include "recordings/base/check.h"
@@ -14,8 +15,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-ordered_json description(const std::string& name, const BuiltInSettings& s) {
-    return {{"scene", name + ".json"},
+ordered_json description(const fs::path& scene, const SceneFile& file, const BuiltInSettings& s) {
+    return {{"scene", scene.filename().string()},
+            {"scene_fingerprint", fingerprint_of_scene(files_of(scene, file))},
             {"size", {s.size.x, s.size.y}},
             {"frames", s.frames},
             {"samples", s.samples},
@@ -23,10 +25,8 @@ ordered_json description(const std::string& name, const BuiltInSettings& s) {
             {"truth_samples", s.truth_samples}};
 }
 
-void record(const fs::path& scene, const fs::path& folder, const BuiltInSettings& s,
+void record(const FilmedScene& film, const fs::path& folder, const BuiltInSettings& s,
             const RecordWatch& watch) {
-    const FilmedScene film =
-        film_scene(load_scene_file(scene), scene.string(), {s.size, /*hand_held=*/true});
     RecordSettings settings;
     settings.frames = s.frames;
     settings.samples = s.samples;
@@ -50,15 +50,19 @@ Work built_in_work(const std::string& name, const fs::path& scenes, const fs::pa
     const fs::path scene = scenes / (name + ".json");
     const fs::path recording = folder / name;
     const fs::path mark = recording / "record.json";
-    const ordered_json wanted = description(name, settings);
+    const SceneFile file = load_scene_file(scene);
+    const ordered_json wanted = description(scene, file, settings);
     if (!fs::exists(mark)) {
         make_folder(recording);
-        record(scene, recording, settings, watch);
+        record(film_scene(file, scene.string(), {settings.size, /*hand_held=*/true}), recording,
+               settings, watch);
         write_text(mark, wanted.dump(1) + "\n");
     }
     std::ifstream stream(mark);
     require(ordered_json::parse(stream, nullptr, /*allow_exceptions=*/false) == wanted,
-            mark.string() + ": was recorded with other settings; choose another folder",
+            mark.string() +
+                ": was recorded with other settings, or the scene has changed since; choose "
+                "another folder",
             ExitCode::usage);
     return open_work(recording, Settings{}, scene);
 }

@@ -23,7 +23,7 @@ const std::vector<std::string>& built_in_names();
 
 /// Records the scene `name` of `scenes` into `folder`/`name`, unless it stands there complete, and
 /// opens it. Throws Error as open_work, interrupted when `watch` asks to stop,
-/// and usage where the folder holds a recording made with other settings.
+/// and usage where the folder holds a recording made with other settings or of another scene.
 Work built_in_work(const std::string& name, const std::filesystem::path& scenes,
                    const std::filesystem::path& folder, const BuiltInSettings& settings,
                    const RecordWatch& watch = {[](int) {}, [] { return false; }});

@@ -23,7 +23,30 @@ struct Group {
                 runs.push_back(&run);
         return runs;
     }
+
+    /// What the method said when it failed in a unit; "" where it did not.
+    std::string failure_in(const UnitRun& unit) const {
+        for (const MethodRun* run : runs_of(unit))
+            if (!run->failed.empty()) return run->failed;
+        return "";
+    }
 };
+
+/// Without the units in which the method failed: these hold no measurement of it.
+Group finished(const Group& group) {
+    Group result = group;
+    std::erase_if(result.units,
+                  [&](const UnitRun* unit) { return !group.failure_in(*unit).empty(); });
+    return result;
+}
+
+std::vector<FailedRepeat> failures_of(const Group& group) {
+    std::vector<FailedRepeat> failures;
+    for (const UnitRun* unit : group.units)
+        if (const std::string message = group.failure_in(*unit); !message.empty())
+            failures.push_back({unit->repeat, message});
+    return failures;
+}
 
 using ErrorOf = std::optional<FrameError> MethodRun::*;
 
@@ -52,9 +75,11 @@ std::optional<CellError> error_of(const std::vector<const MethodRun*>& runs, Err
     return result;
 }
 
-/// What ranks widths; infinite where nothing was measured.
+/// What ranks widths; infinite where nothing was measured, or not every frame.
 double rank_of(const std::vector<const MethodRun*>& runs) {
     constexpr double nothing = std::numeric_limits<double>::infinity();
+    for (const MethodRun* run : runs)
+        if (!run->failed.empty()) return nothing;
     for (const ErrorOf kind : {&MethodRun::converged, &MethodRun::truth}) {
         const auto error = error_of(runs, kind);
         if (error) return error->rmse_influenced.value_or(error->rmse);
@@ -132,28 +157,8 @@ RayCounts mean_rays(const UnitRun& unit) {
     return mean;
 }
 
-Cell cell_of(const Group& group) {
-    const UnitRun& first = *group.units.front();
-    const auto runs = group.runs_of(first);
-    Cell cell;
-    cell.knob = first.knob;
-    cell.value = first.value;
-    cell.method = group.method;
-    cell.temporal = group.temporal;
-    cell.id =
-        first.knob + "=" + first.value + "/" + group.method + (group.temporal ? "/temporal" : "");
-    if (group.width != 0) cell.width = group.width;
-    cell.primary = first.primary;
-    cell.secondary = first.secondary;
-    for (const MethodRun* run : runs)
-        if (!run->failed.empty()) cell.failed = run->failed;
-    if (!cell.failed.empty()) return cell;
-    cell.wall = stages_of(group, &Cost::wall_ms);
-    cell.cpu = stages_of(group, &Cost::cpu_ms);
-    cell.rays = mean_rays(first);
-    cell.peak_mb = first.peak_mb;
-    cell.converged = error_of(runs, &MethodRun::converged);
-    cell.truth = error_of(runs, &MethodRun::truth);
+/// Root of the mean over frames of the squared changes.
+std::optional<double> flicker_of(const std::vector<const MethodRun*>& runs) {
     double squares = 0;
     int counted = 0;
     for (const MethodRun* run : runs) {
@@ -161,7 +166,33 @@ Cell cell_of(const Group& group) {
         squares += *run->flicker * *run->flicker;
         ++counted;
     }
-    if (counted > 0) cell.flicker = std::sqrt(squares / counted);
+    if (counted == 0) return std::nullopt;
+    return std::sqrt(squares / counted);
+}
+
+Cell cell_of(const Group& all) {
+    const UnitRun& first = *all.units.front();
+    const auto runs = all.runs_of(first);
+    Cell cell;
+    cell.knob = first.knob;
+    cell.value = first.value;
+    cell.method = all.method;
+    cell.temporal = all.temporal;
+    cell.id = first.knob + "=" + first.value + "/" + all.method + (all.temporal ? "/temporal" : "");
+    if (all.width != 0) cell.width = all.width;
+    cell.primary = first.primary;
+    cell.secondary = first.secondary;
+    cell.failed = all.failure_in(first);
+    if (!cell.failed.empty()) return cell;
+    cell.failed_repeats = failures_of(all);
+    const Group group = finished(all);
+    cell.wall = stages_of(group, &Cost::wall_ms);
+    cell.cpu = stages_of(group, &Cost::cpu_ms);
+    cell.rays = mean_rays(first);
+    cell.peak_mb = first.peak_mb;
+    cell.converged = error_of(runs, &MethodRun::converged);
+    cell.truth = error_of(runs, &MethodRun::truth);
+    cell.flicker = flicker_of(runs);
     cell.frames = frames_of(group);
     return cell;
 }

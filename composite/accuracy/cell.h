@@ -37,6 +37,12 @@ struct CellFrame {
     double ms = 0;              // trace + filter + composite, median over repeats
 };
 
+/// A repeat in which the method failed on some frame.
+struct FailedRepeat {
+    int repeat = 0;  // the first is 0
+    std::string message;
+};
+
 struct Cell {
     std::string id, knob, value, method;
     bool temporal = false;
@@ -48,7 +54,8 @@ struct Cell {
     std::optional<CellError> converged, truth;
     std::optional<double> flicker;
     std::vector<CellFrame> frames;
-    std::string failed;
+    std::string failed;                        // in the first repeat: there are then no figures
+    std::vector<FailedRepeat> failed_repeats;  // later ones, which are in no figure
 };
 
 /// The cells of one work, in the order of its units: repeats become spreads, and of a method's

@@ -82,8 +82,8 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
 /// The picture from a share 1 / `parts` of the samples, of a seed of its own.
 Image<Rgb> partial_picture(const Work& work, const TrackedFrame& frame, const Settings& settings,
                            int parts, std::uint32_t which) {
-    SamplingSettings sampling = settings.trace;
-    sampling.secondary = std::max(1, sampling.secondary / parts);
+    const int samples = settings.trace.primary * settings.trace.secondary;
+    SamplingSettings sampling = share_of_samples(settings.trace, std::max(1, samples / parts));
     sampling.seed += estimate_seed_offset + which;
     const SampledFrame sampled = sample_frame(work, frame, sampling, std::uint32_t(frame.frame));
     FilterSettings filter = settings.filter;
@@ -121,8 +121,19 @@ ErrorEstimate estimate_error(const Image<Rgb>& filtered, const Image<Rgb>& a, co
     return estimate;
 }
 
-EstimateQuality check_estimate(const Work& work, const std::vector<JudgedFrame>& frames,
-                               const Settings& settings) {
+SamplingSettings share_of_samples(SamplingSettings sampling, int samples) {
+    require(samples > 0, "a share of samples must hold one", ExitCode::usage);
+    sampling.primary = std::min(sampling.primary, samples);
+    while (samples % sampling.primary != 0)
+        --sampling.primary;
+    sampling.secondary = samples / sampling.primary;
+    return sampling;
+}
+
+std::optional<EstimateQuality> check_estimate(const Work& work,
+                                              const std::vector<JudgedFrame>& frames,
+                                              const Settings& settings) {
+    if (settings.trace.primary * settings.trace.secondary < 2) return std::nullopt;
     EstimateQuality quality;
     std::vector<double> estimated, truth;
     double estimated_sum = 0, true_sum = 0;
@@ -147,6 +158,7 @@ EstimateQuality check_estimate(const Work& work, const std::vector<JudgedFrame>&
         true_sum += true_square;
         quality.frames.push_back({frame.now.frame, estimate.rmse, std::sqrt(true_square)});
     }
+    if (quality.frames.empty()) return std::nullopt;
     quality.rank_correlation = correlation(ranks_of(estimated), ranks_of(truth));
     quality.calibration = true_sum > 0 ? estimated_sum / true_sum : 0;
     return quality;

@@ -3,6 +3,7 @@
 
 #include "composite/accuracy/unit.h"
 
+#include <optional>
 #include <vector>
 
 namespace inlay {
@@ -33,10 +34,16 @@ struct EstimateQuality {
     std::vector<EstimatedFrame> frames;
 };
 
-/// Takes a filtered half and two raw quarters of settings.trace's samples of each frame and
-/// compares with its `converged` reference; frames without one, or without influenced pixels, are
-/// left out.
-EstimateQuality check_estimate(const Work& work, const std::vector<JudgedFrame>& frames,
-                               const Settings& settings);
+/// A share of a setting's samples, whole ones: `samples` per pixel, with as many camera rays as go
+/// into them and as `sampling` has at most. Throws Error unless `samples` > 0.
+SamplingSettings share_of_samples(SamplingSettings sampling, int samples);
+
+/// Takes a filtered half and two raw quarters of settings.trace's samples of each frame, rounded
+/// down but at least one sample each (of two samples, one more is taken), and compares with its
+/// `converged` reference; frames without one, or without influenced pixels, are left out. Nothing
+/// for a single sample, which has no half, and where no frame is left.
+std::optional<EstimateQuality> check_estimate(const Work& work,
+                                              const std::vector<JudgedFrame>& frames,
+                                              const Settings& settings);
 
 }  // namespace inlay

@@ -1,5 +1,6 @@
 #include "composite/accuracy/frame_budget.h"
 
+#include "composite/accuracy/displacement.h"
 #include "composite/blend/differential.h"
 #include "recordings/base/check.h"
 #include "render/filter/filter_layers.h"
@@ -9,49 +10,48 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <memory>
 
 namespace inlay {
 namespace {
 
-/// A picture moved by a fraction of its pixels along (1, 1) / sqrt 2, bilinear, its border
-/// repeated.
-Image<Rgb> moved(const Image<Rgb>& image, double px) {
-    const auto at = [&](int x, int y) {
-        return image(std::clamp(x, 0, image.width - 1), std::clamp(y, 0, image.height - 1));
+/// Seeds of samples that stand for the judged ones, and for no others.
+constexpr std::uint32_t allowance_seed = 0xb0d6, first_still_seed = 0xb0d7,
+                        second_still_seed = 0xb0d8;
+/// Light from one half of the sky changes by its own value per radian of a surface's tilt towards
+/// it: the integral of sin^2 |cos phi| over that of sin cos over the hemisphere, pi / 2 each.
+constexpr double change_per_tilt = 1;
+/// What the causes of a wrong irradiance share, as `slack` for the picture.
+constexpr double irradiance_slack = 1.1;
+
+/// Two pictures of one view from independent samples.
+struct Halves {
+    Image<Rgb> a, b;
+};
+
+Halves pictures_of(const TrackedFrame& frame, const ConvergedLight& light,
+                   const BlendSettings& blend) {
+    return {composite(*frame.photo, light.a, blend).linear,
+            composite(*frame.photo, light.b, blend).linear};
+}
+
+/// RMSE of what two halves estimate against the truth, without the noise of either.
+double rmse_of(const Halves& halves, const Reference& truth) {
+    const double square =
+        mean_square_beyond_noise(truth.linear, halves.a, halves.b, truth.influenced);
+    return std::sqrt(std::max(0.0, square - influenced_variance(truth)));
+}
+
+/// RMS over the influenced pixels of what independent noise changes from frame to frame where
+/// nothing moves, without a filter.
+double unfiltered_flicker(const Work& work, const TrackedFrame& frame, const Settings& settings,
+                          const Mask& influenced) {
+    Settings plain = settings;
+    plain.filter.enabled = false;
+    const auto picture = [&](std::uint32_t seed) {
+        return composite(*frame.photo, light_of(work, frame, plain, seed), settings.blend).linear;
     };
-    const double step = px / std::sqrt(2.0);
-    const int whole = int(std::floor(step));
-    const auto part = float(step - whole);
-    Image<Rgb> result(image.width, image.height);
-    for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-            const int u = x + whole, v = y + whole;
-            const Rgb top = glm::mix(at(u, v), at(u + 1, v), part);
-            const Rgb bottom = glm::mix(at(u, v + 1), at(u + 1, v + 1), part);
-            result(x, y) = glm::mix(top, bottom, part);
-        }
-    }
-    return result;
-}
-
-double influenced_rmse(const Reference& reference, const Image<Rgb>& picture) {
-    return std::sqrt(error_against(reference, picture, encode(picture)).mean_square_influenced);
-}
-
-/// Sums of squares of one irradiance against its reference, where real surfaces fill the pixel.
-double relative_rmse(const Layers& layers, const Layers& reference, Image<Rgb> Irradiance::*kind) {
-    double error = 0, power = 0;
-    for (std::size_t i = 0; i < layers.m.pixels.size(); ++i) {
-        if (layers.m.pixels[i] < 1 || reference.m.pixels[i] < 1) continue;
-        const Rgb found = (layers.direct.*kind).pixels[i] + (layers.indirect.*kind).pixels[i];
-        const Rgb wanted =
-            (reference.direct.*kind).pixels[i] + (reference.indirect.*kind).pixels[i];
-        if (wanted == Rgb(0) || found == Rgb(0)) continue;  // a hole of one of the surfaces
-        error += double(glm::dot(found - wanted, found - wanted));
-        power += double(glm::dot(wanted, wanted));
-    }
-    return power > 0 ? std::sqrt(error / power) : 0;
+    return radiance_error(picture(first_still_seed), picture(second_still_seed), influenced).rmse;
 }
 
 /// The frame reconstructed without sensor noise or tracking.
@@ -63,95 +63,105 @@ TrackedFrame seen_room(const Work& work, int frame, const Settings& settings) {
 
 }  // namespace
 
+ConvergedLight converged_light(const Work& work, const TrackedFrame& frame,
+                               const Settings& settings, int samples) {
+    const int half = std::max(1, samples / 2);
+    return {converged_half(work, frame, settings, half, 0),
+            converged_half(work, frame, settings, half, 1)};
+}
+
 Layers light_of(const Work& work, const TrackedFrame& frame, const Settings& settings,
-                int converged_samples) {
+                std::uint32_t seed_offset) {
     SamplingSettings sampling = settings.trace;
-    FilterSettings filter = settings.filter;
-    if (converged_samples > 0) {
-        sampling = many_samples(sampling, converged_samples);
-        filter.enabled = false;
-    }
+    sampling.seed += seed_offset;
     const SampledFrame sampled = sample_frame(work, frame, sampling, std::uint32_t(frame.frame));
-    return filter_layers(sampled.result.layers, nullptr, work.environment_bandwidth, filter);
+    return filter_layers(sampled.result.layers, nullptr, work.environment_bandwidth,
+                         settings.filter);
 }
 
-IrradianceError irradiance_error(const Layers& layers, const Layers& reference) {
-    std::size_t covered = 0, lit = 0;
-    for (std::size_t i = 0; i < layers.m.pixels.size(); ++i) {
-        if (layers.m.pixels[i] < 1 || reference.direct.e_r.pixels[i] == Rgb(0)) continue;
-        ++covered;
-        if (layers.direct.e_r.pixels[i] != Rgb(0)) ++lit;
-    }
-    return {relative_rmse(layers, reference, &Irradiance::e_r),
-            relative_rmse(layers, reference, &Irradiance::e_rv_real),
-            covered > 0 ? double(lit) / double(covered) : 0.0};
+TrackedFrame true_frame(const Work& work, const TrackedFrame& frame) {
+    const auto photograph = true_photograph(work, frame.frame);
+    require(photograph.has_value(), fmt::format("{}: frame {} has no truth; record it with --truth",
+                                                work.name, frame.frame));
+    TrackedFrame exact = with_true_room(work, frame, true_pose(work, frame.frame));
+    exact.photo = std::make_shared<const Photo>(Photo{encode(*photograph), *photograph});
+    return exact;
 }
 
-double displacement_px(const Work& work, const TrackedFrame& frame, const Pose& true_pose) {
-    require(work.knows_room && frame.room != nullptr, work.name + ": its true room is unknown");
-    const EmbreeScene room = EmbreeSceneCache().place(work.scene, frame.time, /*real=*/true);
-    const Image<float> depth = trace_depth(room, frame.lens, true_pose);
-    const SurfaceMap& surface = *frame.room->surface;
-    // Where a true point is seen from the pose that was found, and how far the model's depth moves
-    // what it casts: a length on the surface is as long in the image as one across the view.
-    double sum = 0;
-    int count = 0;
-    for (int y = 0; y < depth.height; ++y) {
-        for (int x = 0; x < depth.width; ++x) {
-            const float z = depth(x, y);
-            if (z <= 0 || !surface.has_surface(x, y)) continue;
-            const glm::dvec3 world = true_pose * (double(z) * unproject(frame.lens, {x, y}));
-            const glm::dvec3 seen = inverse(frame.world_from_camera) * world;
-            if (!(seen.z > 0)) continue;
-            const double off = glm::length(project(frame.lens, seen) - glm::dvec2(x, y));
-            const double error = double(surface.position(x, y).z) - seen.z;
-            if (std::abs(error) > 0.05 * double(z)) continue;  // another surface: an edge
-            const double cast = frame.lens.fx * std::abs(error) / double(z);
-            sum += off * off + cast * cast;
-            ++count;
-        }
-    }
-    return count > 0 ? std::sqrt(sum / count) : 0;
+namespace {
+
+/// What the reconstruction may change an irradiance by: what it does change, up to what tilted
+/// normals and a displaced image account for.
+double geometry_share(double measured, const ConvergedLight& wanted, const SensorBounds& bounds,
+                      Image<Rgb> Irradiance::*kind) {
+    const double displaced = displaced_irradiance(wanted.pair(), kind, bounds.displaced_px);
+    return std::min(measured, std::hypot(change_per_tilt * bounds.tilt, displaced));
 }
+
+/// The picture's parts but `sampling`, which needs no room.
+void add_room(const Work& work, const TrackedFrame& frame, const Settings& settings, int samples,
+              FrameBudget& budget) {
+    const Reference truth = *truth_of_frame(work, frame.frame, frame.lens);
+    TrackedFrame seen = seen_room(work, frame.frame, settings);
+    seen.photo = true_frame(work, frame).photo;
+    const double measured = rmse_of(
+        pictures_of(seen, converged_light(work, seen, settings, samples), settings.blend), truth);
+    const double grain = displaced_mean_square(truth, budget.bounds.model_px);
+    budget.seen = std::min(measured, std::sqrt(budget.equation * budget.equation + grain));
+    budget.displaced_px = std::min(displacement_px(work, frame, true_pose(work, frame.frame)),
+                                   budget.bounds.displaced_px);
+    budget.displacement = std::sqrt(displaced_mean_square(truth, budget.displaced_px));
+}
+
+/// Irradiances: samples and filter in the true room, and what the reconstruction adds.
+void add_irradiance(const LightPair& sampled, const ConvergedLight& reconstructed,
+                    const ConvergedLight& wanted, FrameBudget& budget) {
+    const IrradianceError sampling = irradiance_error(sampled, wanted.pair());
+    const IrradianceError geometry = irradiance_error(reconstructed.pair(), wanted.pair());
+    const double e_r = geometry_share(geometry.e_r, wanted, budget.bounds, &Irradiance::e_r);
+    const double e_rv =
+        geometry_share(geometry.e_rv, wanted, budget.bounds, &Irradiance::e_rv_real);
+    budget.e_r = irradiance_slack * std::hypot(sampling.e_r, e_r);
+    budget.e_rv = irradiance_slack * std::hypot(sampling.e_rv, e_rv);
+}
+
+}  // namespace
 
 FrameBudget frame_budget(const Work& work, const TrackedFrame& frame, const Settings& settings,
-                         int converged_samples, double slack) {
-    const Pose pose = true_pose(work, frame.frame);
+                         const ConvergedLight& wanted, int converged_samples, double slack) {
+    const TrackedFrame exact = true_frame(work, frame);
     const auto truth = truth_of_frame(work, frame.frame, frame.lens);
-    const auto photograph = true_photograph(work, frame.frame);
-    require(
-        truth.has_value() && photograph.has_value(),
-        fmt::format("{}: frame {} has no truth; record it with --truth", work.name, frame.frame));
-    const TrackedFrame exact = with_true_room(work, frame, pose);
-    const Photo photo{encode(*photograph), *photograph};
-    const Layers wanted = light_of(work, exact, settings, converged_samples);
-    const Layers found = light_of(work, exact, settings);
-    const Image<Rgb> reference = composite(photo, wanted, settings.blend).linear;
-    const Reference as_reference = make_reference(
-        reference, Image<Rgb>(reference.width, reference.height, Rgb(0)), photo.linear);
+    require(truth.has_value(), fmt::format("{}: frame {} has no truth; record it with --truth",
+                                           work.name, frame.frame));
     FrameBudget budget;
-    budget.equation = influenced_rmse(*truth, reference);
-    budget.sampling = influenced_rmse(as_reference, composite(photo, found, settings.blend).linear);
-    const Layers seen =
-        light_of(work, seen_room(work, frame.frame, settings), settings, converged_samples);
-    budget.seen = influenced_rmse(*truth, composite(photo, seen, settings.blend).linear);
-    budget.displaced_px = displacement_px(work, frame, pose);
-    budget.displacement = influenced_rmse(*truth, moved(truth->linear, budget.displaced_px));
+    const EmbreeScene room = EmbreeSceneCache().place(work.scene, frame.time, /*real=*/true);
+    budget.bounds =
+        sensor_bounds(trace_depth(room, exact.lens, exact.world_from_camera), exact.lens,
+                      double(settings.slam.fusion.voxel_size), work.sensor_noise);
+    const Halves reference = pictures_of(exact, wanted, settings.blend);
+    budget.equation = rmse_of(reference, *truth);
+    const Layers found = light_of(work, exact, settings, allowance_seed);
+    budget.sampling = std::sqrt(std::max(
+        0.0, mean_square_beyond_noise(composite(*exact.photo, found, settings.blend).linear,
+                                      reference.a, reference.b, truth->influenced)));
+    add_room(work, frame, settings, converged_samples, budget);
     const double reference_mode = std::max(budget.equation, budget.seen);
     budget.total =
         slack * std::sqrt(reference_mode * reference_mode + budget.sampling * budget.sampling +
                           budget.displacement * budget.displacement);
-    const IrradianceError light = irradiance_error(found, wanted);
-    budget.e_r = light.e_r;
-    budget.e_rv = light.e_rv;
+    add_irradiance({found, found}, converged_light(work, frame, settings, converged_samples),
+                   wanted, budget);
+    budget.flicker = unfiltered_flicker(work, exact, settings, truth->influenced);
     return budget;
 }
 
 std::string budget_line(const FrameBudget& b) {
     return fmt::format(
         "allowed {:.4f}: equation {:.4f}, room as seen {:.4f}, samples and filter {:.4f}, "
-        "{:.2f} px of pose and depth {:.4f}; E_R {:.3f}, E_RV {:.3f}",
-        b.total, b.equation, b.seen, b.sampling, b.displaced_px, b.displacement, b.e_r, b.e_rv);
+        "{:.2f} px (of at most {:.2f}) of pose and depth {:.4f}; E_R {:.3f}, E_RV {:.3f}; flicker "
+        "{:.4f}",
+        b.total, b.equation, b.seen, b.sampling, b.displaced_px, b.bounds.displaced_px,
+        b.displacement, b.e_r, b.e_rv, b.flicker);
 }
 
 }  // namespace inlay

@@ -1,46 +1,54 @@
 // FrameBudget: how far a composite may be from the truth, derived before it is made.
 #pragma once
 
+#include "composite/accuracy/irradiance_error.h"
+#include "composite/accuracy/sensor_bounds.h"
 #include "composite/accuracy/unit.h"
 
 #include <string>
 
 namespace inlay {
 
-/// RMSE over the influenced pixels, relative radiance.
+/// RMSE over the influenced pixels, relative radiance. Every part is measured with samples that
+/// nothing is judged by, and the noise of what it is measured against is taken out.
 struct FrameBudget {
-    double equation = 0;      // the reference mode with true room and pose: eq. 6.2 itself
-    double seen = 0;          // the same in the room that exact depth and poses have shown so far
-    double sampling = 0;      // the setting's samples and filter against that reference mode
-    double displaced_px = 0;  // by how much pose and depth are off, in the image
-    double displacement = 0;  // the truth against itself, displaced by as much
-    double total = 0;         // what is allowed
-    /// Relative RMSE of the irradiances that sampling and filter alone leave, with true room and
-    /// pose.
-    double e_r = 0, e_rv = 0;
+    double equation = 0;       // the reference mode with true room and pose: eq. 6.2 itself
+    double seen = 0;           // the same in the room that exact depth and poses have shown so far
+    double sampling = 0;       // the setting's samples and filter against that reference mode
+    double displaced_px = 0;   // by how much pose and depth are off, in the image
+    double displacement = 0;   // the truth against itself, displaced by as much
+    double total = 0;          // what is allowed
+    double e_r = 0, e_rv = 0;  // allowed relative RMSE of the irradiances
+    double flicker = 0;  // allowed RMS change of a still camera's picture: unfiltered noise alone
+    SensorBounds bounds;
 };
+
+/// Light of the reference mode, unfiltered, in two halves of independent samples.
+struct ConvergedLight {
+    Layers a, b;
+    LightPair pair() const { return {a, b}; }
+};
+/// Of seeds that no measurement has; `samples` per pixel of both halves together.
+ConvergedLight converged_light(const Work& work, const TrackedFrame& frame,
+                               const Settings& settings, int samples);
 
 /// The parts add as squares, since they do not know of each other; `slack` covers what they share.
-/// `frame` is the tracked one. Throws Error where the work has no truth, room or pose for it.
+/// What tracking and fusion add to the picture, `seen` and `displaced_px`, and to the irradiances
+/// counts up to what sensor_bounds() leave and no further, so that a tracker or a model that is
+/// worse does not allow itself more. `frame` is the tracked one, `wanted` the light of its
+/// true_frame() from `converged_samples`. Throws Error where the work has no truth, room or pose
+/// for it.
 FrameBudget frame_budget(const Work& work, const TrackedFrame& frame, const Settings& settings,
-                         int converged_samples, double slack = 1.5);
+                         const ConvergedLight& wanted, int converged_samples, double slack = 1.5);
 
-/// How far the tracked frame's real surface lies from where the truth has it, in the image (px, RMS
-/// over the pixels where both are known): its pose and its depth together.
-double displacement_px(const Work& work, const TrackedFrame& frame, const Pose& true_pose);
-
-/// Relative RMSE of filtered irradiances against those of the true room without noise, over pixels
-/// that real surfaces cover whole: root of the mean square error over that of the reference.
-struct IrradianceError {
-    double e_r = 0, e_rv = 0;
-    double compared = 0;  // share of the pixels that real surfaces cover whole; the rest are holes
-};
-IrradianceError irradiance_error(const Layers& layers, const Layers& reference);
-
-/// The layers of a frame, filtered under `settings`; with `converged_samples` > 0 unfiltered from
-/// as many samples.
+/// The layers of a frame from the settings' samples, filtered as they say; `seed_offset` makes them
+/// independent of those of other offsets.
 Layers light_of(const Work& work, const TrackedFrame& frame, const Settings& settings,
-                int converged_samples = 0);
+                std::uint32_t seed_offset = 0);
+
+/// The frame with the true room, pose and photograph. Throws Error where the work does not know
+/// them.
+TrackedFrame true_frame(const Work& work, const TrackedFrame& frame);
 
 /// One line with every part.
 std::string budget_line(const FrameBudget& budget);

@@ -4,6 +4,7 @@
 #include "recordings/base/check.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 namespace inlay {
@@ -73,8 +74,10 @@ std::vector<int> measured_frames(const Work& work, const std::function<bool(int)
                 ExitCode::usage);
         return frames;
     }
-    frames.push_back(all.front());
-    if (all.size() > 1) frames.push_back(all.back());
+    std::copy_if(all.begin(), all.end(), std::back_inserter(frames),
+                 [&](int frame) { return frame_before(work, frame).has_value(); });
+    if (frames.empty()) frames = all;
+    if (frames.size() > 2) frames.erase(frames.begin() + 1, frames.end() - 1);
     return frames;
 }
 

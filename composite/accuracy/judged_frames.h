@@ -10,7 +10,8 @@
 namespace inlay {
 
 /// The frames with truth (or all, where none has), of these the wanted ones; without a wish the
-/// first and the last of them. A scene has its one view, 0. Throws Error (usage) when none is left.
+/// first and the last of those that have a frame before them, if there are any. A scene has its one
+/// view, 0. Throws Error (usage) when none is left.
 std::vector<int> measured_frames(const Work& work, const std::function<bool(int)>& wanted);
 
 /// Tracks the frames and those before them under one reconstruction's settings. The frame before

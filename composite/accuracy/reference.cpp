@@ -98,8 +98,22 @@ FrameError error_against(const Reference& reference, const Image<Rgb>& linear,
     return error;
 }
 
+double mean_square_beyond_noise(const Image<Rgb>& picture, const Image<Rgb>& a, const Image<Rgb>& b,
+                                const Mask& mask) {
+    require(same_size(picture, a) && same_size(picture, b) && same_size(picture, mask),
+            "two estimates, what they are compared with and the mask must have one size");
+    return mean_over(mask, [&](std::size_t i) {
+        const Rgb& p = picture.pixels[i];
+        return double(glm::dot(a.pixels[i] - p, b.pixels[i] - p));
+    });
+}
+
+double influenced_variance(const Reference& reference) {
+    return variance_over(reference, reference.influenced);
+}
+
 double influenced_standard_error(const Reference& reference) {
-    return std::sqrt(variance_over(reference, reference.influenced));
+    return std::sqrt(influenced_variance(reference));
 }
 
 }  // namespace inlay

@@ -41,6 +41,16 @@ struct FrameError {
 FrameError error_against(const Reference& reference, const Image<Rgb>& linear,
                          const Image<EncodedRgb>& display);
 
+/// Mean over the channels of the masked pixels of (a - picture)(b - picture): the mean square
+/// distance of `picture` from what `a` and `b` are independent estimates of, whose noise drops out.
+/// May be negative where there is nothing but noise; 0 for an empty mask. All must have one size
+/// (Error).
+double mean_square_beyond_noise(const Image<Rgb>& picture, const Image<Rgb>& a, const Image<Rgb>& b,
+                                const Mask& mask);
+
+/// The reference's variance, mean over the channels of its influenced pixels; 0 without any.
+double influenced_variance(const Reference& reference);
+
 /// RMS of the reference's standard error over its influenced pixels; 0 where there are none.
 double influenced_standard_error(const Reference& reference);
 

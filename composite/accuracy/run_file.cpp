@@ -1,6 +1,7 @@
 #include "composite/accuracy/run_file.h"
 
 #include "composite/accuracy/judged_frames.h"
+#include "composite/accuracy/work_fingerprint.h"
 #include "composite/write/atomic_file.h"
 #include "recordings/base/check.h"
 
@@ -15,7 +16,8 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 /// What must be the same for a run to go on.
-ordered_json identity(const std::vector<Work>& works, const BenchOptions& options) {
+ordered_json identity(const std::vector<Work>& works, const BenchOptions& options,
+                      const fs::path& folder) {
     ordered_json settings;
     for (const SettingRow& row : setting_rows())
         settings[row.name] = row.get(options.settings);
@@ -23,11 +25,17 @@ ordered_json identity(const std::vector<Work>& works, const BenchOptions& option
         {"program", options.program},    {"settings", settings},
         {"repeats", options.repeats},    {"quick", options.quick},
         {"only", options.only},          {"converged_samples", options.converged_samples},
-        {"works", ordered_json::array()}};
+        {"names", ordered_json::array()}};
     for (const Work& work : works)
-        json["works"].push_back({{"name", work.name},
-                                 {"source", fs::absolute(work.source).string()},
-                                 {"frames", measured_frames(work, options.wanted_frame)}});
+        json["names"].push_back(work.name);
+    for (const Work& work : works) {
+        ordered_json contents = ordered_json::object();
+        for (const auto& [part, fingerprint] : fingerprints_of(work, folder))
+            contents[part] = fingerprint;
+        json["works"][work.name] = {{"source", fs::absolute(work.source).string()},
+                                    {"frames", measured_frames(work, options.wanted_frame)},
+                                    {"contents", contents}};
+    }
     return json;
 }
 
@@ -50,7 +58,7 @@ void require_same(const ordered_json& kept, const ordered_json& now, const fs::p
 RunFacts open_run(const std::vector<Work>& works, const BenchOptions& options,
                   const fs::path& folder) {
     const fs::path file = folder / "run.json";
-    const ordered_json now = identity(works, options);
+    const ordered_json now = identity(works, options, folder);
     if (!fs::exists(file)) {
         const RunFacts facts{utc_now(), this_machine()};
         ordered_json json{{"date", facts.date},

@@ -112,26 +112,38 @@ std::string slopes_text(const WorkReport& work) {
            table_head({"work", "method", "RMSE at samples", "slope"}) + rows;
 }
 
+/// "0.0123 of 0.0456", and a mark where it is over.
+std::string budgeted(const BudgetedFigure& f, int digits) {
+    return fmt::format("{} of {}{}", figure(f.value, digits), figure(f.allowed, digits),
+                       f.kept() ? "" : " (over)");
+}
+
+std::string budget_text(const WorkReport& work) {
+    std::string text =
+        "\nBudget: the composite's errors against truth, of what was derived for them before: what "
+        "the reference mode reaches in\nthe true room and what samples, sensor and poses add. RMSE "
+        "over influenced pixels, relative RMSE of the irradiances,\nRMS change of a still "
+        "camera's picture.\n\n";
+    std::vector<std::string> titles{"work", "frame"};
+    for (const BudgetedFigure& f : figures_of(work.verdicts.front()))
+        titles.push_back(f.name);
+    text += table_head(titles);
+    for (const FrameVerdict& verdict : work.verdicts) {
+        std::vector<std::string> cells{work.name, std::to_string(verdict.frame)};
+        for (const BudgetedFigure& f : figures_of(verdict))
+            cells.push_back(budgeted(f, 4));
+        text += row(cells);
+    }
+    return text;
+}
+
 std::string blame_text(const WorkReport& work) {
     std::string text =
         "\nBlame: the share of the mean square error against truth that goes away "
         "with the truth in place of one stage.\n\n";
-    std::vector<std::string> titles{"work", "frame", "RMSE", "photograph alone", "all stages true",
-                                    "blame"};
-    for (const Stage stage : all_stages)
-        titles.emplace_back(name_of(stage));
-    text += table_head(titles);
-    for (const FrameBlame& blame : work.blame) {
-        std::vector<std::string> cells{work.name,
-                                       std::to_string(blame.frame),
-                                       figure(blame.rmse, 4),
-                                       figure(blame.photograph_rmse, 4),
-                                       figure(blame.best_rmse, 4),
-                                       name_of(blame.culprit)};
-        for (const StageBlame& stage : blame.stages)
-            cells.push_back(figure(100 * stage.share, 0) + " %");
-        text += row(cells);
-    }
+    text += blame_table_head();
+    for (const FrameBlame& blame : work.blame)
+        text += blame_table_row(work.name, blame);
     return text;
 }
 
@@ -139,10 +151,34 @@ std::string failures_text(const WorkReport& work) {
     std::string text;
     for (const Cell& cell : work.cells)
         if (!cell.failed.empty()) text += "\n- failed: " + cell.id + ": " + cell.failed;
+    for (const Cell& cell : work.cells)
+        for (const FailedRepeat& f : cell.failed_repeats)
+            text +=
+                fmt::format("\n- failed in repeat {}: {}: {}", f.repeat + 1, cell.id, f.message);
     return text.empty() ? text : text + "\n";
 }
 
 }  // namespace
+
+std::string blame_table_head() {
+    std::vector<std::string> titles{"work", "frame", "RMSE", "photograph alone", "all stages true",
+                                    "blame"};
+    for (const Stage stage : all_stages)
+        titles.emplace_back(name_of(stage));
+    return table_head(titles);
+}
+
+std::string blame_table_row(const std::string& work, const FrameBlame& blame) {
+    std::vector<std::string> cells{work,
+                                   std::to_string(blame.frame),
+                                   figure(blame.rmse, 4),
+                                   figure(blame.photograph_rmse, 4),
+                                   figure(blame.best_rmse, 4),
+                                   name_of(blame.culprit)};
+    for (const StageBlame& stage : blame.stages)
+        cells.push_back(figure(100 * stage.share, 0) + " %");
+    return row(cells);
+}
 
 std::optional<double> error_slope(const std::vector<Cell>& cells, const std::string& method,
                                   bool temporal) {
@@ -170,6 +206,7 @@ std::string summary_text(const AccuracyReport& report) {
         if (!prices.equal_error.empty()) text += equal_error_text(work, prices);
         if (!prices.equal_time.empty()) text += equal_time_text(work, prices);
         text += slopes_text(work);
+        if (!work.verdicts.empty()) text += budget_text(work);
         if (!work.blame.empty()) text += blame_text(work);
         text += failures_text(work);
     }

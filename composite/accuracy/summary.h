@@ -16,9 +16,13 @@ namespace inlay {
 std::optional<double> error_slope(const std::vector<Cell>& cells, const std::string& method,
                                   bool temporal);
 
-/// Markdown: date, machine, and per work the figures at equal error, at equal time, the slopes and
-/// the blame. Each row names its work, so that it can be quoted by itself; a figure that does not
-/// exist is a dash.
+/// Markdown: the head of the table of stages to blame, and its rows.
+std::string blame_table_head();
+std::string blame_table_row(const std::string& work, const FrameBlame& blame);
+
+/// Markdown: date, machine, and per work the figures at equal error, at equal time, the slopes,
+/// the budgets and the blame. Each row names its work, so that it can be quoted by itself; a figure
+/// that does not exist is a dash.
 std::string summary_text(const AccuracyReport& report);
 
 }  // namespace inlay

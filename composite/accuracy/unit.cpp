@@ -4,6 +4,7 @@
 #include "composite/measure/flicker.h"
 #include "render/filter/filter_layers.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <exception>
@@ -102,18 +103,6 @@ MethodRun run_method(const Work& work, const JudgedFrame& frame, const Samplings
     return run;
 }
 
-Image<Rgb> converged_half(const Work& work, const TrackedFrame& frame, const Settings& settings,
-                          int samples, std::uint32_t half) {
-    SamplingSettings sampling = many_samples(settings.trace, samples);
-    sampling.seed += reference_seed_offset + half;
-    const SampledFrame sampled = sample_frame(work, frame, sampling, std::uint32_t(frame.frame));
-    FilterSettings off = settings.filter;
-    off.enabled = false;
-    return composite(*frame.photo, filter_layers(sampled.result.layers, nullptr, 0, off),
-                     settings.blend)
-        .linear;
-}
-
 Work with_lights(const Work& work, int light_list, std::uint32_t seed) {
     Work result = work;
     if (light_list > 0)
@@ -145,11 +134,34 @@ SamplingSettings many_samples(SamplingSettings sampling, int samples) {
     return sampling;
 }
 
+Layers converged_half(const Work& work, const TrackedFrame& frame, const Settings& settings,
+                      int samples, std::uint32_t half) {
+    SamplingSettings sampling = many_samples(settings.trace, samples);
+    sampling.seed += reference_seed_offset + half;
+    const SampledFrame sampled = sample_frame(work, frame, sampling, std::uint32_t(frame.frame));
+    FilterSettings off = settings.filter;
+    off.enabled = false;
+    return filter_layers(sampled.result.layers, nullptr, 0, off);
+}
+
 Reference converge(const Work& work, const TrackedFrame& frame, const Settings& settings,
                    int samples_per_half) {
-    const Image<Rgb> a = converged_half(work, frame, settings, samples_per_half, 0);
-    const Image<Rgb> b = converged_half(work, frame, settings, samples_per_half, 1);
-    return mean_of_halves(a, b, frame.photo->linear);
+    const auto picture = [&](std::uint32_t half) {
+        return composite(*frame.photo,
+                         converged_half(work, frame, settings, samples_per_half, half),
+                         settings.blend)
+            .linear;
+    };
+    return mean_of_halves(picture(0), picture(1), frame.photo->linear);
+}
+
+std::vector<const JudgedFrame*> compared_frames(const std::vector<JudgedFrame>& frames) {
+    const bool any_previous = std::any_of(
+        frames.begin(), frames.end(), [](const JudgedFrame& f) { return f.previous.has_value(); });
+    std::vector<const JudgedFrame*> compared;
+    for (const JudgedFrame& frame : frames)
+        if (frame.previous || !any_previous) compared.push_back(&frame);
+    return compared;
 }
 
 UnitRun measure_unit(const Work& given, const std::vector<JudgedFrame>& frames,
@@ -161,7 +173,8 @@ UnitRun measure_unit(const Work& given, const std::vector<JudgedFrame>& frames,
     unit.value = plan.value;
     unit.primary = plan.settings.trace.primary;
     unit.secondary = plan.settings.trace.secondary;
-    for (const JudgedFrame& frame : frames) {
+    for (const JudgedFrame* compared : compared_frames(frames)) {
+        const JudgedFrame& frame = *compared;
         const Samplings taken = take_samples(work, frame, plan);
         unit.frames.push_back(
             {frame.now.frame, frame.now.slam_ms, taken.now.cost, taken.now.result.rays});

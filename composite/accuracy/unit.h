@@ -65,8 +65,12 @@ struct UnitPlan {
     int light_list = 0;         // see Sampling
 };
 
-/// Samples every frame once and hands the samples to every method in turn. A method that throws is
-/// reported in its run; the others go on.
+/// The frames that all cells are measured on, so that those with and without the previous frame
+/// average over the same: the ones that have a previous frame, or all where none has.
+std::vector<const JudgedFrame*> compared_frames(const std::vector<JudgedFrame>& frames);
+
+/// Samples every compared frame once and hands the samples to every method in turn. A method that
+/// throws is reported in its run; the others go on.
 UnitRun measure_unit(const Work& work, const std::vector<JudgedFrame>& frames,
                      const UnitPlan& plan);
 
@@ -82,8 +86,12 @@ SampledFrame sample_frame(const Work& work, const TrackedFrame& frame,
 /// textures as well as for light, and no virtual surface favoured.
 SamplingSettings many_samples(SamplingSettings sampling, int samples);
 
-/// The picture of the two-mode sampler without noise or filter: unfiltered, many samples, in two
-/// halves of another seed.
+/// One of the two halves, 0 or 1, of a reference: unfiltered light from `samples` per pixel, of a
+/// seed that no measurement has.
+Layers converged_half(const Work& work, const TrackedFrame& frame, const Settings& settings,
+                      int samples, std::uint32_t half);
+
+/// The picture of the two-mode sampler without noise or filter: the mean of its two halves.
 Reference converge(const Work& work, const TrackedFrame& frame, const Settings& settings,
                    int samples_per_half);
 

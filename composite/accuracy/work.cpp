@@ -1,5 +1,6 @@
 #include "composite/accuracy/work.h"
 
+#include "composite/accuracy/work_fingerprint.h"
 #include "recordings/base/check.h"
 #include "recordings/environment/exr_image.h"
 #include "render/filter/environment_bandwidth.h"
@@ -34,23 +35,28 @@ Work rendered_work(const fs::path& path) {
     work.source = path;
     work.view = file.view;
     work.warnings = file.warnings;
+    work.scene_files = files_of(path, file);
     work.knows_room = true;
     const auto no_surface = [&](int) -> SurfaceMap {
         throw Error(ExitCode::bad_data,
                     path.string() + ": 'place' needs a recording; give the object a 'transform'");
     };
     work.scene = resolve_placements(file, no_surface, file.view->up);
-    light(work, load_environment(file.environment, file.view->up, {0, 0, 1}).map);
+    LoadedEnvironment environment = load_environment(file.environment, file.view->up, {0, 0, 1});
+    if (environment.replaced_texels > 0) work.warnings.push_back(replaced_texels_text(environment));
+    light(work, std::move(environment.map));
     return work;
 }
 
-int truth_samples_of(const fs::path& folder) {
-    std::ifstream file(folder / "record.json");
-    if (!file) return 0;
-    const nlohmann::json json = nlohmann::json::parse(file, nullptr, /*allow_exceptions=*/false);
-    require(!json.is_discarded(), (folder / "record.json").string() +
-                                      ": is no JSON; expected what `inlay record` writes");
-    return json.value("truth_samples", 0);
+/// How the recording was made, as far as its record.json says.
+void describe_truth(Work& work) {
+    const fs::path file = work.source / "record.json";
+    std::ifstream stream(file);
+    if (!stream) return;
+    const nlohmann::json json = nlohmann::json::parse(stream, nullptr, /*allow_exceptions=*/false);
+    require(json.is_object(), file.string() + ": is no JSON; expected what `inlay record` writes");
+    if (!work.truth_frames.empty()) work.truth_samples = json.value("truth_samples", 0);
+    work.sensor_noise = json.value("sensor_noise", true);
 }
 
 bool any_real(const VirtualScene& scene) {
@@ -67,7 +73,9 @@ Work recorded_work(const fs::path& path, const Settings& settings, const fs::pat
     require(fs::exists(scene),
             scene.string() + ": not there; name the recording's scene with --scene",
             ExitCode::input_missing);
-    PreparedScene prepared = prepare_scene(load_scene_file(scene), *work.recording, settings);
+    const SceneFile file = load_scene_file(scene);
+    work.scene_files = files_of(scene, file);
+    PreparedScene prepared = prepare_scene(file, *work.recording, settings);
     work.scene = std::move(prepared.scene);
     work.warnings = std::move(prepared.warnings);
     work.knows_room = any_real(work.scene);
@@ -75,7 +83,7 @@ Work recorded_work(const fs::path& path, const Settings& settings, const fs::pat
     for (const int frame : work.recording->info.frames)
         if (fs::exists(truth_file(work, "composite", frame, ".exr")))
             work.truth_frames.push_back(frame);
-    if (!work.truth_frames.empty()) work.truth_samples = truth_samples_of(path);
+    describe_truth(work);
     return work;
 }
 

@@ -23,11 +23,13 @@ struct Work {
     VirtualScene scene;                  // all objects; those flagged real are the room
     bool knows_room = false;             // the scene holds the real objects too
     EnvironmentSampler environment;
-    double environment_bandwidth = 0;  // B_e, 1/rad
-    EnvironmentIrradiance open_sky;    // of the environment
-    std::optional<View> view;          // of a scene
-    std::vector<int> truth_frames;     // with truth/composite, ascending
-    int truth_samples = 0;             // paths per pixel; 0: unknown or no truth
+    double environment_bandwidth = 0;    // B_e, 1/rad
+    EnvironmentIrradiance open_sky;      // of the environment
+    std::optional<View> view;            // of a scene
+    std::vector<int> truth_frames;       // with truth/composite, ascending
+    int truth_samples = 0;               // paths per pixel; 0: unknown or no truth
+    bool sensor_noise = true;            // of a recording: its depth is a sensor's, not exact
+    std::vector<AssetFile> scene_files;  // that the scene was read from, its own file first
     std::vector<std::string> warnings;
 };
 

@@ -10,7 +10,7 @@
 namespace inlay {
 
 /// A frame's picture C and its truth T, both linear. An empty truth stands for one that does not
-/// change: that of a still camera at steady_pixels.
+/// change: that of a still camera.
 struct ShownFrame {
     const Image<Rgb>& picture;
     const Image<Rgb>& truth;
@@ -19,16 +19,13 @@ struct ShownFrame {
 /// Sums over pairs of consecutive frames; add_flicker fills them, flicker_of reads them.
 struct FlickerSums {
     double change = 0;             // squared, of all channels
-    double reference = 0;          // squared, of all channels
     std::uint64_t pixels = 0;      // compared, over all pairs
     std::uint64_t non_finite = 0;  // left out: not finite in one of the pictures
 };
 
 /// Root mean squares over the channels of the compared pixels of all pairs.
 struct Flicker {
-    double rms = 0;       // of (C_t - T_t) - (C_t-1 - T_t-1), linear radiance
-    double relative = 0;  // rms / root mean square of T_t, or of C_t where there is no truth;
-                          // infinite when that is 0
+    double rms = 0;  // of (C_t - T_t) - (C_t-1 - T_t-1), linear radiance
     std::uint64_t pixels = 0;
     std::uint64_t non_finite = 0;
 };
@@ -42,11 +39,4 @@ void add_flicker(FlickerSums& sums, const ShownFrame& before, const ShownFrame& 
 
 /// Throws Error (bad_data) when nothing was compared.
 Flicker flicker_of(const FlickerSums& sums);
-
-/// The pixels whose truth changes in no channel by more than `largest_change` (linear radiance,
-/// >= 0, a few standard errors of a noisy truth); what is not finite is not steady. Throws Error
-/// (bad_data) when sizes differ or pictures are empty.
-Mask steady_pixels(const Image<Rgb>& truth_before, const Image<Rgb>& truth_now,
-                   double largest_change = 0);
-
 }  // namespace inlay

@@ -1,5 +1,6 @@
 #include "composite/record/film_scene.h"
 
+#include "composite/session/prepare_scene.h"
 #include "recordings/base/check.h"
 #include "render/scene/place_object.h"
 
@@ -17,7 +18,9 @@ FilmedScene film_scene(const SceneFile& scene, const std::string& place,
     };
     FilmedScene film;
     film.scene = resolve_placements(scene, no_surface, scene.view->up);
-    film.environment = load_environment(scene.environment, scene.view->up, {0, 0, 1}).map;
+    LoadedEnvironment environment = load_environment(scene.environment, scene.view->up, {0, 0, 1});
+    if (environment.replaced_texels > 0) film.warnings.push_back(replaced_texels_text(environment));
+    film.environment = std::move(environment.map);
     film.lens = scene.view->lens;
     if (settings.size) film.lens = scaled(film.lens, settings.size->x, settings.size->y);
     film.up = scene.view->up;

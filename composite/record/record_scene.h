@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <functional>
 #include <set>
+#include <string>
 #include <vector>
 
 namespace inlay {
@@ -25,6 +26,7 @@ struct FilmedScene {
     Lens lens;
     glm::dvec3 up{0, 1, 0};                   // world
     std::function<Pose(double time)> camera;  // world_from_camera at a time (s)
+    std::vector<std::string> warnings;        // what had to be mended in its files
 };
 
 struct RecordSettings {

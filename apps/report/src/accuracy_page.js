@@ -1,5 +1,6 @@
 // The price list: a page over `accuracy.json`, one work at a time.
 import { blameSection, estimateSection } from './blame.js';
+import { budgetSection } from './budget.js';
 import { cellName, indexWork } from './cells.js';
 import { choices, segments } from './choices.js';
 import { h } from './dom.js';
@@ -78,6 +79,7 @@ function workSections(report, work) {
         priceSection(work),
         knobsSection(work),
         frameSection(work),
+        budgetSection(work),
         benchSection(pictures, firstPair(work, pictures)),
         blameSection(work),
         estimateSection(work),

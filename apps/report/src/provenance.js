@@ -139,19 +139,29 @@ export function methodList(report) {
     );
 }
 
+/** What a cell says of its failures, a text each. */
+const failuresOf = (cell) =>
+    cell.failed
+        ? [cell.failed]
+        : (cell.failed_repeats ?? []).map(
+              ({ repeat, message }) => `in repeat ${repeat + 1}, the others count: ${message}`,
+          );
+
 /** The cells that failed with their messages, or null. */
 export function failedSection(work) {
-    const failed = work.cells.filter((cell) => cell.failed);
+    const failed = work.cells.flatMap((cell) =>
+        failuresOf(cell).map((message) => ({ cell, message })),
+    );
     if (failed.length === 0) return null;
     return section(
         'failed',
         'What failed',
-        'These cells have no figures.',
+        'A failed cell has no figures, a failed repeat is in none.',
         h(
             'ul',
             { class: 'failures' },
-            ...failed.map((cell) =>
-                h('li', {}, h('strong', {}, cellName(work, cell)), ` ${cell.failed}`),
+            ...failed.map(({ cell, message }) =>
+                h('li', {}, h('strong', {}, cellName(work, cell)), ` ${message}`),
             ),
         ),
     );

@@ -1,4 +1,4 @@
-// One run of `inlay replay`: time, tracking, rays, pixels, pictures and the effect plan.
+// One run of `inlay replay`, or one picture of `inlay render`: time, tracking, rays, pixels, pictures and the effect plan.
 import { h, section } from './dom.js';
 import { dash, figure, isFigure, median, percent, ranges, withUnit } from './format.js';
 import { contents, pageHead, tiles } from './page_head.js';
@@ -6,6 +6,9 @@ import { benchSection } from './picture_bench.js';
 import { provenanceSection } from './provenance.js';
 import { pixelsSection, raysSection, stagesSection, trackingSection } from './run_charts.js';
 import { table } from './tables.js';
+
+/** What a command did, for the heading. */
+const deeds = { replay: 'Replay', render: 'Picture' };
 
 function runTiles(report, frames) {
     const having = (status) => frames.filter((frame) => frame.tracking === status).length;
@@ -77,7 +80,7 @@ export function replayPage(report) {
     return [
         pageHead(
             report,
-            `Replay of ${report.recording ?? 'a recording'}`,
+            `${deeds[report.command] ?? deeds.replay} of ${report.recording ?? 'a recording'}`,
             h('p', { class: 'made-by' }, `Scene: ${report.scene ?? dash}`),
         ),
         h('main', {}, runTiles(report, frames), contents(sections), ...sections),

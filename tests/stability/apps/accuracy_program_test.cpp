@@ -27,6 +27,18 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
+/// Writes the picture again with one pixel that is not a number.
+void spoil(const fs::path& file, std::size_t pixel) {
+    const Image<Rgb> picture = read_exr(file);
+    std::vector<Imf::Rgba> pixels;
+    for (const Rgb& c : picture.pixels)
+        pixels.emplace_back(c.r, c.g, c.b);
+    pixels[pixel].g = std::numeric_limits<float>::quiet_NaN();
+    Imf::RgbaOutputFile exr(file.string().c_str(), picture.width, picture.height, Imf::WRITE_RGB);
+    exr.setFrameBuffer(pixels.data(), 1, std::size_t(picture.width));
+    exr.writePixels(picture.height);
+}
+
 /// The only work of a run that must have gone well.
 json work_of(const fs::path& recording, const fs::path& out) {
     const Outcome outcome = accuracy(recording, out);
@@ -54,7 +66,8 @@ TEST(Accuracy, MeasuresAWorkWithoutTruth) {
     EXPECT_THAT(figures(work, "truth", "rmse"), Each(IsNull()));
     EXPECT_THAT(figures(work, "converged", "rmse"), Each(IsFiniteNumber()));
     EXPECT_TRUE(work["blame"].is_null());
-    EXPECT_EQ(work["frames"], json({0, 2}));
+    EXPECT_EQ(work["frames"], json({1, 2}));  // which both have a frame before them
+    EXPECT_TRUE(work["budget"].is_null());
     const Outcome blame = accuracy(recording, folder / "none", "--blame");
     EXPECT_EQ(blame.code, 65);
     EXPECT_THAT(blame.err, HasSubstr("inlay record --truth"));
@@ -69,8 +82,59 @@ TEST(Accuracy, WritesFiguresAgainstBothReferencesAPageAndASummary) {
         EXPECT_THAT(figures(work, reference, "rmse_influenced"), Each(IsFiniteNumber()));
     EXPECT_EQ(work["reference"]["truth_samples"], 64);
     EXPECT_THAT(work["blame"], SizeIs(2 * 5));  // frames x stages
+    ASSERT_THAT(work["budget"], SizeIs(2));
+    for (const json& frame : work["budget"]) {
+        ASSERT_THAT(frame["figures"], SizeIs(4));  // RMSE, E_R, E_RV, flicker
+        bool kept = true;
+        for (const json& figure : frame["figures"]) {
+            EXPECT_THAT(figure["allowed"], IsFiniteNumber());
+            kept = kept && figure["value"] <= figure["allowed"];
+        }
+        EXPECT_EQ(frame["kept"], kept);
+        EXPECT_GT(frame["figures"][0]["allowed"], 0);
+    }
     EXPECT_THAT(file_text(folder / "out/accuracy.html"), HasSubstr("samples=16/axis_aligned"));
-    EXPECT_THAT(file_text(folder / "out/summary.md"), HasSubstr("| ball | Axis-aligned filter |"));
+    EXPECT_THAT(file_text(folder / "out/summary.md"),
+                AllOf(HasSubstr("| ball | Axis-aligned filter |"), HasSubstr("\nBudget: ")));
+}
+
+TEST(Accuracy, PrintsTheBlameTableWithoutAFolder) {
+    std::string line;
+    for (const std::string& argument : test::small_run)
+        line += argument + " ";
+    line = "accuracy " + ball().string() + " --blame " + line;
+    const Outcome table = test::run_program(line);
+    ASSERT_EQ(table.code, 0) << table.err;
+    EXPECT_THAT(table.out, testing::StartsWith("| work | frame | RMSE |"));
+    EXPECT_THAT(table.out, AllOf(HasSubstr("\n| ball | 1 |"), HasSubstr("\n| ball | 2 |")));
+    const Outcome data = test::run_program(line + "--json");
+    ASSERT_EQ(data.code, 0) << data.err;
+    const json report = json::parse(data.out);
+    EXPECT_EQ(report["kind"], "blame");
+    EXPECT_EQ(report["works"][0]["name"], "ball");
+    EXPECT_THAT(report["works"][0]["blame"], SizeIs(2 * 5));
+}
+
+TEST(Accuracy, WarnsOfAnEnvironmentThatHadToBeMended) {
+    const TemporaryFolder folder;
+    const Image<Rgb> light(8, 4, Rgb(1));
+    ExrFile exr;
+    exr.picture = &light;
+    write_exr(folder / "sky.exr", exr);
+    spoil(folder / "sky.exr", 20);
+    std::string scene = scene_with_ball(0.2, 0.9);
+    const std::string constant = R"({"constant": [1, 1, 1]})";
+    scene.replace(scene.find(constant), constant.size(), R"({"file": "sky.exr"})");
+    test::write_file(folder / "scene.json", scene);
+    const std::string warning = "1 texels were not finite";
+    const Outcome recorded =
+        test::run_program("record " + (folder / "scene.json").string() + " --out " +
+                          (folder / "recording").string() + " --samples 2 --length 1 --truth none");
+    ASSERT_EQ(recorded.code, 0) << recorded.err;
+    EXPECT_THAT(recorded.err, HasSubstr(warning));
+    const Outcome measured = accuracy(folder / "scene.json", folder / "out");
+    ASSERT_EQ(measured.code, 0) << measured.err;
+    EXPECT_THAT(measured.err, HasSubstr(warning));
 }
 
 TEST(Accuracy, RefusesTruthOfAnotherSize) {
@@ -122,22 +186,10 @@ TEST(Accuracy, MeasuresPicturesThatAreVirtualAllOver) {
     EXPECT_THAT(figures(work, "truth", "rmse_influenced"), Each(IsFiniteNumber()));
 }
 
-/// Writes the picture again with one pixel that is not a number.
-void spoil(const fs::path& file) {
-    const Image<Rgb> picture = read_exr(file);
-    std::vector<Imf::Rgba> pixels;
-    for (const Rgb& c : picture.pixels)
-        pixels.emplace_back(c.r, c.g, c.b);
-    pixels[40].g = std::numeric_limits<float>::quiet_NaN();
-    Imf::RgbaOutputFile exr(file.string().c_str(), picture.width, picture.height, Imf::WRITE_RGB);
-    exr.setFrameBuffer(pixels.data(), 1, std::size_t(picture.width));
-    exr.writePixels(picture.height);
-}
-
 TEST(Accuracy, LeavesOutAndCountsPixelsOfTheTruthThatAreNotFinite) {
     const TemporaryFolder folder;
     fs::copy(ball(), folder / "ball", fs::copy_options::recursive);
-    spoil(folder / "ball/truth/composite/000001.exr");
+    spoil(folder / "ball/truth/composite/000001.exr", 40);
     const Outcome outcome = accuracy(folder / "ball", folder / "out");
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("1 pixels of frame 1's truth are not finite"));

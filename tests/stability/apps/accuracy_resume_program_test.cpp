@@ -5,6 +5,7 @@
 #include <signal.h>
 
 #include <chrono>
+#include <functional>
 #include <set>
 #include <thread>
 
@@ -96,6 +97,40 @@ TEST(AccuracyResume, GoesOnAfterAnInterrupt) {
     for (const auto& [name, bytes] : kept)
         EXPECT_TRUE(all.at(name) == bytes) << name;
     EXPECT_EQ(timeless(out), timeless(whole_run()));
+}
+
+/// The message that refuses to go on with the run after `change`.
+std::string refusal_after(const std::function<void(const fs::path& work)>& change) {
+    const TemporaryFolder folder;
+    const fs::path work = folder / "ball";
+    fs::copy(ball(), work, fs::copy_options::recursive);
+    const std::string options = "--quiet --only split";
+    const Outcome first = accuracy(work, folder / "out", options);
+    EXPECT_EQ(first.code, 0) << first.err;
+    EXPECT_EQ(accuracy(work, folder / "out", options + " --resume").code, 0);
+    change(work);
+    const Outcome again = accuracy(work, folder / "out", options + " --resume");
+    EXPECT_EQ(again.code, 2);
+    return again.err;
+}
+
+TEST(AccuracyResume, RefusesAWorkWhoseContentsHaveChanged) {
+    const std::string truth = refusal_after([](const fs::path& work) {
+        const fs::path file = work / "truth/composite/000001.exr";
+        std::string bytes = file_text(file);
+        bytes.back() = char(bytes.back() ^ 1);  // the size stays
+        test::write_file(file, bytes);
+    });
+    EXPECT_THAT(truth, AllOf(HasSubstr("works ball contents truth was"), HasSubstr("--out")));
+    const std::string scene = refusal_after([](const fs::path& work) {
+        std::string text = file_text(work / "scene.json");
+        text.replace(text.find("0.9"), 3, "0.8");
+        test::write_file(work / "scene.json", text);
+    });
+    EXPECT_THAT(scene, HasSubstr("works ball contents"));
+    const std::string files = refusal_after(
+        [](const fs::path& work) { test::write_file(work / "rgb/notes.txt", "new"); });
+    EXPECT_THAT(files, HasSubstr("works ball contents files was"));
 }
 
 TEST(AccuracyResume, NamesADamagedMeasurement) {

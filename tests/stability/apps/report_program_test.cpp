@@ -87,6 +87,7 @@ TEST(Report, HoldsWhatTheFilesOfAReplaySay) {
     const json described = json::parse(test::file_text(run / "run.json"));
     EXPECT_EQ(page["version"], 1);
     EXPECT_EQ(page["kind"], "replay");
+    EXPECT_EQ(page["command"], "replay");
     EXPECT_THAT(sorted_lines(run), SizeIs(6));
     EXPECT_EQ(page["frames"], json(sorted_lines(run)));
     EXPECT_EQ(page["settings"], described["settings"]);
@@ -136,6 +137,8 @@ TEST(Report, OfARenderStandsBesideThePicture) {
                                               " --samples 4 --photo-samples 4 --quiet --report");
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     const json page = data_of(folder / "ball.html");
+    EXPECT_EQ(page["command"], "render");  // the page's heading says so
+    EXPECT_EQ(page["recording"], "the view of ball");
     ASSERT_THAT(page["frames"], SizeIs(1));
     EXPECT_EQ(page["frames"][0]["tracking"], "tracked");
     EXPECT_GT(page["frames"][0]["pixels"]["virtual"], 0);

@@ -1,5 +1,5 @@
 // Opens report pages in Chromium and checks what a reader would see.
-// usage: node page_test.mjs (accuracy|replay|sparse|refusal FILE)...
+// usage: node page_test.mjs (accuracy|replay|render|sparse|refusal FILE)...
 import assert from 'node:assert/strict';
 import { pathToFileURL } from 'node:url';
 import { startBrowser } from './browser.mjs';
@@ -50,6 +50,25 @@ async function showsBoundsAndDashes(page) {
 
 async function listsWhatFailed(page) {
     assert.match(await text(page, '#failed'), /width 0 px at pixel \(12, 7\) <\/script>/);
+}
+
+async function putsBudgetsBesideErrors(page) {
+    assert.match(await text(page, '#budget'), /Over it: frame 1/);
+    const lines = await page.evaluate(
+        "document.querySelectorAll('#budget svg [aria-label=line] path').length",
+    );
+    assert.equal(lines, 2); // measured, allowed
+    await choose(page, 'budget', 'flicker');
+    assert.match(await text(page, '#budget .axis-title'), /still camera/);
+}
+
+async function namesTheCommand(page) {
+    assert.equal(await text(page, 'h1'), 'Replay of desk');
+}
+
+async function saysThatItIsAPicture(page) {
+    assert.equal(await text(page, 'h1'), 'Picture of the view of desk');
+    assert.doesNotMatch(await text(page, 'body'), /replay/i);
 }
 
 async function showsTheOtherWork(page) {
@@ -109,12 +128,14 @@ const checks = {
         followsTheChoice,
         showsBoundsAndDashes,
         listsWhatFailed,
+        putsBudgetsBesideErrors,
         ...bench,
         common.fitsAPhone,
         showsTheOtherWork,
         ...always,
     ],
-    replay: [common.chartsAreDrawn, drawsEveryFrame, givesThePlan, ...bench, ...always],
+    replay: [common.chartsAreDrawn, drawsEveryFrame, givesThePlan, namesTheCommand, ...bench, ...always],
+    render: [saysThatItIsAPicture, common.nothingIsWrong],
     sparse: [showsWhatThereIs, common.fitsAPhone, common.nothingIsWrong],
     refusal: [
         async function saysWhyItShowsNothing(page) {
@@ -122,7 +143,7 @@ const checks = {
         },
     ],
 };
-const charts = { accuracy: 5, replay: 4 };
+const charts = { accuracy: 6, replay: 4 };
 
 async function checkPage(browser, kind, file) {
     const url = pathToFileURL(file).href;

@@ -78,14 +78,15 @@ constexpr const char* sparse_accuracy = R"({"version": 1, "methods": [], "works"
 
 TEST(ReportPage, ShowsItsDataInABrowser) {
     const TemporaryFolder folder;
-    const std::string log =
-        run_script("page_test.mjs accuracy " + sample_page(folder, "accuracy") + " replay " +
-                   sample_page(folder, "replay") + " sparse " +
-                   written_page(folder, "sparse_accuracy", sparse_accuracy) + " sparse " +
-                   written_page(folder, "sparse_replay", R"({"version": 1, "kind": "replay"})") +
-                   " refusal " + written_page(folder, "refusal", R"({"version": 2})"));
+    const std::string log = run_script(
+        "page_test.mjs accuracy " + sample_page(folder, "accuracy") + " replay " +
+        sample_page(folder, "replay") + " render " + sample_page(folder, "render") + " sparse " +
+        written_page(folder, "sparse_accuracy", sparse_accuracy) + " sparse " +
+        written_page(folder, "sparse_replay", R"({"version": 1, "kind": "replay"})") + " refusal " +
+        written_page(folder, "refusal", R"({"version": 2})"));
     EXPECT_THAT(log, testing::HasSubstr("ok      accuracy: nothingIsWrong"));
     EXPECT_THAT(log, testing::HasSubstr("ok      replay: nothingIsWrong"));
+    EXPECT_THAT(log, testing::HasSubstr("ok      render: nothingIsWrong"));
     EXPECT_THAT(log, testing::HasSubstr("ok      refusal: saysWhyItShowsNothing"));
 }
 

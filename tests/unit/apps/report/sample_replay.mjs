@@ -34,6 +34,7 @@ export function sampleReplay({ width, height } = { width: 160, height: 120 }) {
     return {
         version: 1,
         kind: 'replay',
+        command: 'replay',
         program: '0.1.0',
         date: '2026-01-31T12:00:00Z',
         machine,
@@ -58,5 +59,17 @@ export function sampleReplay({ width, height } = { width: 160, height: 120 }) {
             { effect: 'hair', in: false, reason: 'no object has strands' },
             { effect: 'medium', in: false, reason: 'the scene has no medium' },
         ],
+    };
+}
+
+/** The record of one picture as `inlay render --report` would write it. */
+export function sampleRender() {
+    const replay = sampleReplay();
+    return {
+        ...replay,
+        command: 'render',
+        recording: 'the view of desk',
+        frames: replay.frames.slice(0, 1),
+        pictures: replay.pictures.slice(0, 3),
     };
 }

@@ -1,7 +1,7 @@
-// usage: node write_sample.mjs accuracy|replay FILE
+// usage: node write_sample.mjs accuracy|replay|render FILE
 import { writeFileSync } from 'node:fs';
 import { sampleAccuracy } from './sample_accuracy.mjs';
-import { sampleReplay } from './sample_replay.mjs';
+import { sampleRender, sampleReplay } from './sample_replay.mjs';
 
 const [kind, file] = process.argv.slice(2);
-writeFileSync(file, JSON.stringify({ accuracy: sampleAccuracy, replay: sampleReplay }[kind]()));
+writeFileSync(file, JSON.stringify({ accuracy: sampleAccuracy, replay: sampleReplay, render: sampleRender }[kind]()));

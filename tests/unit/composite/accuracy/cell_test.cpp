@@ -87,6 +87,28 @@ TEST(Cells, AFailureKeepsItsMessageAndHasNoFigures) {
     EXPECT_FALSE(cells[0].converged);
 }
 
+TEST(Cells, AFailureInALaterRepeatIsSaidAndInNoFigure) {
+    std::vector<UnitRun> units{unit(0, 10), unit(1, 20), unit(2, 30)};
+    for (MethodRun& r : units[1].runs) {
+        if (r.frame != 1) continue;  // the other frame's run is sound
+        r.failed = "out of luck";
+        r.filter = r.composite = {};
+        r.converged.reset();
+    }
+    const auto cells = cells_of(units);
+    ASSERT_EQ(cells.size(), 1u);
+    EXPECT_EQ(cells[0].failed, "");
+    ASSERT_EQ(cells[0].failed_repeats.size(), 1u);
+    EXPECT_EQ(cells[0].failed_repeats[0].repeat, 1);
+    EXPECT_EQ(cells[0].failed_repeats[0].message, "out of luck");
+    EXPECT_EQ(cells[0].wall.trace.median, 20);  // of 10 and 30
+    EXPECT_EQ(cells[0].wall.trace.min, 10);
+    EXPECT_EQ(cells[0].wall.filter.min, 2);
+    EXPECT_EQ(cells[0].wall.total.median, 23);
+    EXPECT_EQ(cells[0].frames[1].ms, 23);
+    EXPECT_NEAR(*cells[0].converged->rmse_influenced, 0.1, 1e-12);
+}
+
 TEST(UnitJson, ComesBackAsItWas) {
     UnitRun u = unit(2, 1.0 / 3);
     u.runs[0].truth = error(0.25);

@@ -81,6 +81,32 @@ TEST(Summary, HasBlameAndFailures) {
     EXPECT_THAT(text, HasSubstr("- failed: samples=256/axis_aligned: it was too dark\n"));
 }
 
+TEST(Summary, PutsBudgetsBesideErrors) {
+    AccuracyReport r = report();
+    FrameVerdict verdict;
+    verdict.frame = 5;
+    verdict.rmse = 0.03;
+    verdict.budget.total = 0.05;
+    verdict.light = {0.1, 0.2, 1};
+    verdict.budget.e_r = 0.15;
+    verdict.budget.e_rv = 0.15;
+    verdict.flicker = 0.01;
+    verdict.budget.flicker = 0.02;
+    r.works[0].verdicts = {verdict};
+    const std::string text = summary_text(r);
+    EXPECT_THAT(text, HasSubstr("\nBudget: "));
+    EXPECT_THAT(text, HasSubstr("| work | frame | RMSE | E_R | E_RV | flicker |\n"));
+    EXPECT_THAT(text, HasSubstr("| desk | 5 | 0.0300 of 0.0500 | 0.1000 of 0.1500 | 0.2000 of "
+                                "0.1500 (over) | 0.0100 of 0.0200 |\n"));
+}
+
+TEST(Summary, SaysWhichRepeatFailed) {
+    AccuracyReport r = report();
+    r.works[0].cells.back().failed_repeats = {{2, "it was too dark"}};
+    EXPECT_THAT(summary_text(r), HasSubstr("- failed in repeat 3: samples=256/axis_aligned: it was "
+                                           "too dark\n"));
+}
+
 TEST(Summary, HasNoTableWithoutFigures) {
     AccuracyReport r = report();
     for (Cell& c : r.works[0].cells)

@@ -5,25 +5,12 @@
 #include "composite/accuracy/judged_frames.h"
 #include "composite/accuracy/unit_json.h"
 #include "recordings/base/check.h"
-#include "tests/support/tabletop.h"
+#include "tests/support/tabletop_work.h"
 
 #include <gtest/gtest.h>
 
 namespace inlay {
 namespace {
-
-/// A still view of a table with two virtual balls.
-Work tabletop_work() {
-    Work work;
-    work.name = "tabletop";
-    work.scene = test::tabletop();
-    const VirtualScene balls = test::two_virtual_balls();
-    work.scene.objects.insert(work.scene.objects.end(), balls.objects.begin(), balls.objects.end());
-    work.knows_room = true;
-    work.environment = make_environment_sampler(test::soft_light());
-    work.view = View{{24, 18, 22, 22, 11.5, 8.5}, test::camera_around(0.0), {0, 1, 0}};
-    return work;
-}
 
 Layers fail_with_previous(const MethodInput& in) {
     if (in.previous != nullptr) throw Error(ExitCode::bad_data, "no room for a previous frame");
@@ -35,7 +22,7 @@ Layers fail_with_another_exception(const MethodInput&) { throw std::bad_alloc();
 UnitRun measured() {
     static const Method picky{"picky", "Picky", "baseline", "", {}, fail_with_previous};
     static const Method greedy{"greedy", "Greedy", "baseline", "", {}, fail_with_another_exception};
-    const Work work = tabletop_work();
+    const Work work = test::tabletop_work();
     UnitPlan plan;
     plan.knob = "samples";
     plan.value = "4";
@@ -73,6 +60,32 @@ TEST(MeasureUnit, AFailureIsKeptAndBecomesACellWithoutFigures) {
     EXPECT_FALSE(cells[3].converged.has_value());
     EXPECT_EQ(cells[2].failed, "");
     EXPECT_TRUE(cells[4].converged.has_value());
+}
+
+TEST(MeasureUnit, MeasuresAllCellsOnTheSameFrames) {
+    const Work work = test::tabletop_work();
+    std::vector<JudgedFrame> frames = judge_frames(work, {0}, {Settings{}}, 8);
+    frames.push_back(frames.front());
+    frames.push_back(frames.front());
+    frames[1].now.frame = 1;
+    frames[2].now.frame = 2;
+    frames[1].previous.reset();
+    UnitPlan plan;
+    plan.settings.trace = with_samples(plan.settings.trace, 4);
+    plan.cells = {{&method_named("axis_aligned"), false, 0},
+                  {&method_named("axis_aligned"), true, 0}};
+    const UnitRun unit = measure_unit(work, frames, plan);
+    ASSERT_EQ(unit.frames.size(), 2u);  // frame 1 is measured with no method
+    ASSERT_EQ(unit.runs.size(), 4u);
+    for (const MethodRun& run : unit.runs)
+        EXPECT_NE(run.frame, 1);
+    for (JudgedFrame& frame : frames)
+        frame.previous.reset();
+    const UnitRun alone = measure_unit(work, frames, plan);
+    EXPECT_EQ(alone.frames.size(), 3u);
+    ASSERT_EQ(alone.runs.size(), 3u);
+    for (const MethodRun& run : alone.runs)
+        EXPECT_FALSE(run.temporal);
 }
 
 }  // namespace

@@ -47,7 +47,6 @@ TEST(Flicker, OfAConstantSequenceIsZero) {
     const Image<Rgb> picture = slope(5, 4, 0.5);
     const Flicker flicker = flicker_between({picture, no_truth}, {picture, no_truth});
     EXPECT_EQ(flicker.rms, 0);
-    EXPECT_EQ(flicker.relative, 0);
     EXPECT_EQ(flicker.pixels, 20u);
     EXPECT_EQ(flicker.non_finite, 0u);
 }
@@ -90,20 +89,9 @@ TEST(Flicker, OfWhiteNoiseIsItsDeviationTimesTheRootOfTwo) {
     // in time correlated: the relative deviation of their mean's root is below 0.5 %.
     const double expected = s * std::numbers::sqrt2;
     EXPECT_NEAR(flicker_of(still).rms, expected, 0.02 * expected);
-    EXPECT_NEAR(flicker_of(still).relative, expected / std::hypot(mean, s), 0.02 * expected / mean);
     // Sums up to 130 in single precision are off by up to 8e-6.
     EXPECT_NEAR(flicker_of(moving).rms, flicker_of(still).rms, 2e-5);
     EXPECT_EQ(flicker_of(still).pixels, 8u * 64 * 48);
-}
-
-TEST(Flicker, IsRelativeToTheTruthWhereThereIsOne) {
-    const Image<Rgb> truth(4, 4, Rgb(2)), first(4, 4, Rgb(5)), second(4, 4, Rgb(6));
-    EXPECT_EQ(flicker_between({first, truth}, {second, truth}).relative, 0.5);
-    EXPECT_NEAR(flicker_between({first, no_truth}, {second, no_truth}).relative, 1.0 / 6,
-                1e-15);  // rounding
-    const Image<Rgb> black(4, 4, Rgb(0));
-    EXPECT_EQ(flicker_between({first, black}, {second, black}).relative,
-              std::numeric_limits<double>::infinity());
 }
 
 TEST(Flicker, LeavesOutAndCountsWhatIsNotFiniteInAnyOfTheFour) {
@@ -121,18 +109,12 @@ TEST(Flicker, LeavesOutAndCountsWhatIsNotFiniteInAnyOfTheFour) {
     EXPECT_EQ(flicker.rms, 2.0);
 }
 
-TEST(Flicker, CountsOnlyWhereTheTruthIsSteady) {
-    Image<Rgb> truth_first(4, 1, Rgb(1)), truth_second = truth_first;
-    truth_second(0, 0).g = 1.5f;                                     // moves
-    truth_second(1, 0).b = 1.0625f;                                  // below the limit
-    truth_second(2, 0).r = std::numeric_limits<float>::quiet_NaN();  // unknown
-    const Mask steady = steady_pixels(truth_first, truth_second, 0.125);
-    EXPECT_EQ(steady.pixels, (std::vector<std::uint8_t>{0, 1, 0, 1}));
-    EXPECT_EQ(steady_pixels(truth_first, truth_second).pixels,
-              (std::vector<std::uint8_t>{0, 0, 0, 1}));
+TEST(Flicker, CountsOnlyWhatTheMaskCounts) {
     Image<Rgb> first(4, 1, Rgb(0)), second(4, 1, Rgb(9));
     second(1, 0) = second(3, 0) = Rgb(0.5f);
-    const Flicker flicker = flicker_between({first, no_truth}, {second, no_truth}, steady);
+    Mask counted(4, 1, 0);
+    counted(1, 0) = counted(3, 0) = 1;
+    const Flicker flicker = flicker_between({first, no_truth}, {second, no_truth}, counted);
     EXPECT_EQ(flicker.rms, 0.5);
     EXPECT_EQ(flicker.pixels, 2u);
 }
@@ -144,8 +126,6 @@ TEST(Flicker, RefusesWhatCannotBeCompared) {
     EXPECT_THROW(flicker_between({picture, other}, {picture, other}), Error);
     EXPECT_THROW(flicker_between({picture, no_truth}, {picture, no_truth}, Mask(4, 4, 0)), Error);
     EXPECT_THROW(flicker_between({picture, no_truth}, {picture, no_truth}, Mask(3, 4, 1)), Error);
-    EXPECT_THROW(steady_pixels(picture, other), Error);
-    EXPECT_THROW(steady_pixels(no_truth, no_truth), Error);
     EXPECT_THROW(flicker_of({}), Error);
 }
 

@@ -1,4 +1,4 @@
-#include "apps/inlay/file_content.h"
+#include "composite/write/file_content.h"
 
 #include "recordings/base/check.h"
 
