@@ -91,6 +91,45 @@ INSTANTIATE_TEST_SUITE_P(Real, EveryGeometry,
                          testing::Values(RealGeometryKind::screen, RealGeometryKind::map,
                                          RealGeometryKind::model));
 
+TEST(FrameLoop, TheFrameBeforeAddsNothingToTheFirstFrame) {
+    Settings still = quick_settings();
+    still.filter.temporal = false;
+    for (const int frames : {1, 2}) {
+        const OutputFrame with = play(quick_settings(), test::two_virtual_balls(), frames);
+        const OutputFrame without = play(still, test::two_virtual_balls(), frames);
+        EXPECT_EQ(with.plan.has("temporal_filter"), frames == 2);
+        EXPECT_FALSE(without.plan.has("temporal_filter"));
+        EXPECT_EQ(same_bytes(with.composite.linear, without.composite.linear), frames == 1);
+        EXPECT_EQ(with.rays.real_indirect, without.rays.real_indirect);  // it traces nothing
+    }
+}
+
+TEST(FrameLoop, ThePlanFollowsAnObjectThatComesAndGoes) {
+    VirtualScene objects;
+    objects.objects.push_back(
+        test::ball("chrome", {0, 0, 0}, 0.06f, Phong{Rgb(0.05f), Rgb(0.8f), 64}, false));
+    std::vector<MotionKey>& motion = objects.objects[0].motion;
+    motion.clear();
+    for (int i = 0; i < 5; ++i)  // above the table, and behind the camera
+        motion.push_back(
+            {i / 30.0, glm::translate(glm::dmat4(1), i % 2 == 0 ? glm::dvec3(0.1, 0.06, 0)
+                                                                : glm::dvec3(0, 0.7, 2))});
+    Session session = start_session(quick_settings(), objects, test::soft_light());
+    for (int i = 0; i < 5; ++i) {
+        const OutputFrame out =
+            advance(session, test::record_frame(test::tabletop(), lens, i), FrameWork::compose);
+        const bool seen = i % 2 == 0;
+        EXPECT_EQ(out.plan.has("virtual_surfaces"), seen) << i;
+        EXPECT_EQ(out.plan.has("glossy"), seen) << i;
+        EXPECT_TRUE(out.plan.has("environment_direct")) << i;
+        EXPECT_EQ(out.noisy->k_v.empty(), !seen) << i;
+        EXPECT_EQ(out.noisy->s_rv.empty(), !seen) << i;
+        EXPECT_EQ(out.composite.virtual_pixels > 0, seen) << i;
+        EXPECT_EQ(out.composite.replaced_pixels, 0u) << i;
+        EXPECT_EQ(named_layers(out, layer_names()).layers.size(), layer_names().size()) << i;
+    }
+}
+
 TEST(FrameLoop, ALostFrameShowsThePhotographAlone) {
     Session session =
         start_session(quick_settings(), test::two_virtual_balls(), test::soft_light());

@@ -3,6 +3,8 @@
 
 #include "composite/session/render_view.h"
 #include "recordings/base/check.h"
+#include "render/trace/real_geometry.h"
+#include "render/trace/sample_pass.h"
 #include "tests/support/tabletop.h"
 
 #include <gtest/gtest.h>
@@ -54,6 +56,152 @@ TEST(Plan, WithoutVirtualObjectsAViewIsThePhotographAlone) {
     EXPECT_EQ(empty.rays.primary, 0u);
     EXPECT_EQ(empty.noisy, nullptr);
     EXPECT_EQ(empty.composite.linear.pixels, empty.camera.pixels);
+}
+
+TEST(Plan, ObjectsBringEveryClassOfRays) {
+    const OutputFrame out = render(table_with(test::two_virtual_balls()), test::soft_light());
+    for (const std::uint64_t count :
+         {out.rays.primary, out.rays.virtual_shadow, out.rays.virtual_indirect,
+          out.rays.real_shadow, out.rays.real_indirect})
+        EXPECT_GT(count, 0u);
+}
+
+/// The sampler's result for a scene, with what the plan leaves out or with everything.
+TwoModeResult sample(const VirtualScene& objects, bool as_planned) {
+    const VirtualScene scene = table_with(objects);
+    const EnvironmentSampler environment = make_environment_sampler(test::soft_light());
+    EmbreeSceneCache cache;
+    const EmbreeScene real = cache.place(scene, 0, true), on_top = cache.place(scene, 0, false);
+    const SceneView view{scene, environment, lens, test::camera_around(0)};
+    SamplingSettings settings = with_samples({}, 4);
+    if (as_planned)
+        settings = planned_sampling(plan_effects(facts_of_view(view), settings, {}), settings);
+    return sample_two_modes(
+        {lens, view.world_from_camera, exact_real_geometry(real, environment, first_path_dimension),
+         on_top, environment},
+        settings, 0);
+}
+
+bool same(const RayCounts& a, const RayCounts& b) {
+    return a.primary == b.primary && a.virtual_shadow == b.virtual_shadow &&
+           a.virtual_indirect == b.virtual_indirect && a.real_shadow == b.real_shadow &&
+           a.real_indirect == b.real_indirect;
+}
+
+/// What light does on real surfaces, to the bit.
+bool same_on_real(const NoisyLayers& a, const NoisyLayers& b) {
+    return a.m.pixels == b.m.pixels && a.direct.e_r.pixels == b.direct.e_r.pixels &&
+           a.direct.e_rv_real.pixels == b.direct.e_rv_real.pixels &&
+           a.indirect.e_r.pixels == b.indirect.e_r.pixels &&
+           a.indirect.e_rv_real.pixels == b.indirect.e_rv_real.pixels &&
+           a.real.object.pixels == b.real.object.pixels;
+}
+
+/// A ball that the camera does not see and that shadows the table.
+VirtualScene ball_above_the_view(const Material& material) {
+    return {{test::ball("lamp", {0.1, 0.75, 0.1}, 0.15f, material, false)}};
+}
+
+TEST(Plan, ObjectsOutOfViewHaveNoBufferAndTheSameShadow) {
+    const TwoModeResult planned = sample(ball_above_the_view(Diffuse{}), true);
+    const TwoModeResult all = sample(ball_above_the_view(Diffuse{}), false);
+    EXPECT_TRUE(planned.layers.k_v.empty());
+    EXPECT_TRUE(planned.layers.s_rv.empty());
+    EXPECT_TRUE(planned.layers.direct.e_rv_virtual.empty());
+    EXPECT_TRUE(planned.layers.indirect.e_rv_virtual.empty());
+    EXPECT_TRUE(planned.layers.virtual_.object.empty());
+    EXPECT_TRUE(planned.layers.virtual_.position.empty());
+    EXPECT_EQ(planned.rays.primary, std::uint64_t(lens.width * lens.height * 4));
+    EXPECT_TRUE(same(planned.rays, all.rays));  // what is left out brought nothing
+    EXPECT_TRUE(same_on_real(planned.layers, all.layers));
+    EXPECT_NE(planned.layers.direct.e_rv_real.pixels, planned.layers.direct.e_r.pixels);
+
+    const TwoModeResult seen = sample(test::two_virtual_balls(), true);
+    EXPECT_FALSE(seen.layers.k_v.empty());
+    EXPECT_FALSE(seen.layers.virtual_.object.empty());
+    EXPECT_GT(seen.rays.primary, planned.rays.primary);  // coverage rays
+}
+
+TEST(Plan, AFrameWithObjectsOutOfViewIsTheSameWithTheFilter) {
+    const OutputFrame out = render(table_with(ball_above_the_view(Diffuse{})), test::soft_light());
+    EXPECT_FALSE(out.plan.has("virtual_surfaces"));
+    EXPECT_EQ(out.composite.virtual_pixels, 0u);
+    EXPECT_GT(out.composite.influenced_pixels, 0u);
+    EXPECT_TRUE(out.layers.direct.e_rv_virtual.empty());
+    EXPECT_TRUE(out.layers.s_rv.empty());
+    const NoisyLayers all = sample(ball_above_the_view(Diffuse{}), false).layers;
+    EXPECT_TRUE(same_on_real(*out.noisy, all));
+}
+
+VirtualScene red_ball(const Material& material) {
+    return {{test::ball("red", {0.05, 0.08, 0.05}, 0.08f, material, false)}};
+}
+
+const Rgb red{0.5f, 0.1f, 0.05f};
+const Material shiny_red = Phong{red, Rgb(0.4f), 64};
+
+TEST(Plan, WithoutAGlossySurfaceInViewNoLobeIsFollowed) {
+    const TwoModeResult planned = sample(red_ball(Diffuse{red}), true);
+    const TwoModeResult all = sample(red_ball(Diffuse{red}), false);
+    EXPECT_TRUE(planned.layers.s_rv.empty());
+    EXPECT_TRUE(planned.layers.glossy_bandwidth.empty());
+    EXPECT_FALSE(planned.layers.k_v.empty());
+    EXPECT_TRUE(same(planned.rays, all.rays));
+    EXPECT_TRUE(same_on_real(planned.layers, all.layers));
+    EXPECT_EQ(planned.layers.direct.e_rv_virtual.pixels, all.layers.direct.e_rv_virtual.pixels);
+    EXPECT_EQ(planned.layers.indirect.e_rv_virtual.pixels, all.layers.indirect.e_rv_virtual.pixels);
+
+    const TwoModeResult shiny = sample(red_ball(shiny_red), true);
+    EXPECT_FALSE(shiny.layers.s_rv.empty());
+    EXPECT_FALSE(shiny.layers.glossy_bandwidth.empty());
+    EXPECT_GT(shiny.rays.virtual_indirect, planned.rays.virtual_indirect);
+    EXPECT_GT(shiny.rays.real_indirect, planned.rays.real_indirect);
+}
+
+TEST(Plan, AGlossyLobeChangesWhatItIsSeenInAndLightThatItSendsAndNothingElse) {
+    const NoisyLayers plain = sample(red_ball(Diffuse{red}), true).layers;
+    const NoisyLayers shiny = sample(red_ball(shiny_red), true).layers;
+    EXPECT_EQ(plain.m.pixels, shiny.m.pixels);
+    EXPECT_EQ(plain.k_v.pixels, shiny.k_v.pixels);
+    EXPECT_EQ(plain.direct.e_r.pixels, shiny.direct.e_r.pixels);
+    EXPECT_EQ(plain.direct.e_rv_real.pixels, shiny.direct.e_rv_real.pixels);
+    EXPECT_EQ(plain.direct.e_rv_virtual.pixels, shiny.direct.e_rv_virtual.pixels);
+    EXPECT_EQ(plain.indirect.e_r.pixels, shiny.indirect.e_r.pixels);
+    EXPECT_NE(plain.indirect.e_rv_real.pixels, shiny.indirect.e_rv_real.pixels);
+    double seen = 0;
+    for (std::size_t i = 0; i < shiny.m.pixels.size(); ++i) {
+        if (shiny.m.pixels[i] == 1) {
+            EXPECT_EQ(shiny.s_rv.pixels[i], Rgb(0));
+        }
+        seen += double(shiny.s_rv.pixels[i].r);
+    }
+    EXPECT_GT(seen, 0);
+}
+
+TEST(Plan, AGlossyObjectOutOfViewIsOnlyMetByIndirectRays) {
+    const TwoModeResult plain = sample(ball_above_the_view(Diffuse{red}), true);
+    const TwoModeResult shiny = sample(ball_above_the_view(shiny_red), true);
+    EXPECT_TRUE(shiny.layers.s_rv.empty());
+    EXPECT_EQ(plain.rays.virtual_indirect, shiny.rays.virtual_indirect);
+    EXPECT_EQ(plain.layers.direct.e_rv_real.pixels, shiny.layers.direct.e_rv_real.pixels);
+    EXPECT_NE(plain.layers.indirect.e_rv_real.pixels, shiny.layers.indirect.e_rv_real.pixels);
+    EXPECT_TRUE(same_on_real(shiny.layers, sample(ball_above_the_view(shiny_red), false).layers));
+}
+
+TEST(Plan, TheStatedCostIsAnUpperBoundOfTheRays) {
+    const double pixels = lens.width * lens.height;
+    for (const VirtualScene& objects :
+         {red_ball(Diffuse{}), red_ball(shiny_red), test::two_virtual_balls(),
+          ball_above_the_view(shiny_red),
+          VirtualScene{{test::ball("about the camera", {0, 0.6, 0.9}, 0.5f, shiny_red, false)}}}) {
+        const OutputFrame out = render(table_with(objects), test::soft_light());
+        const RaysPerPixel bound = out.plan.rays();
+        EXPECT_LE(double(out.rays.primary), pixels * bound.primary);
+        EXPECT_LE(double(out.rays.virtual_shadow), pixels * bound.virtual_shadow);
+        EXPECT_LE(double(out.rays.virtual_indirect), pixels * bound.virtual_indirect);
+        EXPECT_LE(double(out.rays.real_shadow), pixels * bound.real_shadow);
+        EXPECT_LE(double(out.rays.real_indirect), pixels * bound.real_indirect);
+    }
 }
 
 TEST(Plan, WithoutTheFilterTheMeansPassAndNothingIsAllocated) {
