@@ -3,6 +3,7 @@
 
 #include "composite/session/render_view.h"
 #include "recordings/base/check.h"
+#include "render/filter/filter_layers.h"
 #include "render/trace/real_geometry.h"
 #include "render/trace/sample_pass.h"
 #include "tests/support/tabletop.h"
@@ -131,6 +132,30 @@ TEST(Plan, AFrameWithObjectsOutOfViewIsTheSameWithTheFilter) {
     EXPECT_TRUE(out.layers.s_rv.empty());
     const NoisyLayers all = sample(ball_above_the_view(Diffuse{}), false).layers;
     EXPECT_TRUE(same_on_real(*out.noisy, all));
+}
+
+bool same(const Layers& a, const Layers& b) {
+    return a.m.pixels == b.m.pixels && a.direct.e_r.pixels == b.direct.e_r.pixels &&
+           a.direct.e_rv_real.pixels == b.direct.e_rv_real.pixels &&
+           a.indirect.e_rv_real.pixels == b.indirect.e_rv_real.pixels &&
+           a.bandwidth_direct.pixels == b.bandwidth_direct.pixels &&
+           a.bandwidth_indirect.pixels == b.bandwidth_indirect.pixels;
+}
+
+TEST(Plan, TheFilterTakesFramesBetweenWhichAnObjectCameOrWent) {
+    const NoisyLayers seen = sample(test::two_virtual_balls(), true).layers;
+    const NoisyLayers unseen = sample(ball_above_the_view(Diffuse{}), true).layers;
+    const NoisyLayers unseen_all = sample(ball_above_the_view(Diffuse{}), false).layers;
+    constexpr double bandwidth = 5;  // 1/rad
+    const Layers came = filter_layers(seen, &unseen, bandwidth, {});
+    const Layers came_all = filter_layers(seen, &unseen_all, bandwidth, {});
+    EXPECT_TRUE(same(came, came_all));
+    EXPECT_EQ(came.s_rv.pixels, came_all.s_rv.pixels);
+    EXPECT_EQ(came.direct.e_rv_virtual.pixels, came_all.direct.e_rv_virtual.pixels);
+    const Layers went = filter_layers(unseen, &seen, bandwidth, {});
+    EXPECT_TRUE(same(went, filter_layers(unseen_all, &seen, bandwidth, {})));
+    EXPECT_TRUE(went.k_v.empty());
+    EXPECT_TRUE(went.direct.e_rv_virtual.empty());
 }
 
 VirtualScene red_ball(const Material& material) {
