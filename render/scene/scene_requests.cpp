@@ -4,10 +4,17 @@
 namespace inlay {
 namespace {
 
-[[noreturn]] void refuse_unable(const JsonNode& node, const std::string& what,
-                                const std::string& remedy) {
-    throw Error(ExitCode::bad_data,
-                node.place + ": " + what + " cannot be done by this version; " + remedy);
+/// Refuses a member of the description if it asks for any of `wishes`; those that are empty are not
+/// asked for.
+void refuse_if_asked(const JsonNode& document, const char* key,
+                     const std::vector<std::string>& wishes, const std::string& remedy) {
+    std::string asked;
+    for (const std::string& wish : wishes)
+        if (!wish.empty()) asked += (asked.empty() ? "" : " and ") + wish;
+    if (asked.empty()) return;
+    throw Error(ExitCode::bad_data, member(document, key).place + ": " + asked +
+                                        " cannot be done by this version; remove \"" + key + "\"" +
+                                        remedy);
 }
 
 void read_light(const JsonNode& node, const AssetFolders& assets, SceneRequests& requests) {
@@ -66,21 +73,17 @@ SceneRequests requests_of(const JsonNode& document, const AssetFolders& assets) 
 }
 
 void refuse_what_cannot_be_done(const JsonNode& document, const SceneRequests& asked) {
-    const char* by_environment = "remove \"lights\" and light the scene by its environment";
-    if (asked.polygon_lights > 0)
-        refuse_unable(member(document, "lights"), "light of polygons (polygon_light)",
-                      by_environment);
-    if (asked.mesh_lights > 0)
-        refuse_unable(member(document, "lights"), "light of meshes (mesh_light)", by_environment);
-    if (asked.medium)
-        refuse_unable(member(document, "medium"), "scattering or absorption (medium)",
-                      "remove \"medium\"");
-    if (asked.aperture_radius > 0)
-        refuse_unable(member(document, "camera"), "blur out of focus (defocus)",
-                      "remove \"aperture_radius\"");
-    if (asked.shutter > 0)
-        refuse_unable(member(document, "camera"), "blur of what moves (motion_blur)",
-                      "remove \"shutter\"");
+    const auto wish = [](bool made, const char* what) { return std::string(made ? what : ""); };
+    refuse_if_asked(document, "lights",
+                    {wish(asked.polygon_lights > 0, "light of polygons (polygon_light)"),
+                     wish(asked.mesh_lights > 0, "light of meshes (mesh_light)")},
+                    " and light the scene by its environment");
+    refuse_if_asked(document, "medium", {wish(asked.medium, "scattering or absorption (medium)")},
+                    "");
+    refuse_if_asked(document, "camera",
+                    {wish(asked.aperture_radius > 0, "blur out of focus (defocus)"),
+                     wish(asked.shutter > 0, "blur of what moves (motion_blur)")},
+                    "");
 }
 
 }  // namespace inlay
