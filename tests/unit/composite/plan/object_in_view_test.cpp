@@ -16,6 +16,7 @@ namespace {
 
 const Lens straight{64, 48, 60, 60, 31.5, 23.5};
 const Lens bent{64, 48, 60, -60, 30, 25, -0.25, 0.08, 0.01, 0.002, -0.003};
+const Lens pincushion{64, 48, 60, 60, 31.5, 23.5, 0.4};  // borders bulge beyond the corners
 
 ObjectBounds ball_bounds(double radius) {
     return {glm::dvec3(-radius), glm::dvec3(radius), radius};
@@ -27,7 +28,7 @@ glm::dmat4 moved_to(const glm::dvec3& centre) { return glm::translate(glm::dmat4
 double number(std::uint32_t i, std::uint32_t which) { return uniform({3, 0, i, 0}, which); }
 
 TEST(ObjectInView, WhatARayMeetsIsNeverOutOfView) {
-    for (const Lens& lens : {straight, bent}) {
+    for (const Lens& lens : {straight, bent, pincushion}) {
         const ViewWindow window = view_window(lens);
         for (std::uint32_t i = 0; i < 20000; ++i) {
             const glm::dvec2 pixel{number(i, 0) * lens.width - 0.5,
@@ -54,6 +55,7 @@ TEST(ObjectInView, WhatLiesClearlyBesideOrBehindIsOut) {
              {glm::dvec3(3, 0, 1), glm::dvec3(-3, 0, 1), glm::dvec3(0, 3, 1), glm::dvec3(0, -3, 1)})
             EXPECT_FALSE(object_in_view(bounds, moved_to(beside), window).possible);
         EXPECT_FALSE(object_in_view(bounds, moved_to({0, 0, -0.2}), window).possible);
+        EXPECT_FALSE(object_in_view(ball_bounds(1), moved_to({0, 0, -1.1}), window).possible);
         EXPECT_TRUE(object_in_view(bounds, moved_to({0, 0, -0.05}), window).possible);
     }
 }
