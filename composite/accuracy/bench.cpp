@@ -81,7 +81,7 @@ std::vector<MethodCell> cells_to_try(const Row& row, const BenchOptions& options
     const bool all_methods = !names_any_method(options.only);
     std::vector<MethodCell> cells;
     for (const Method& method : methods()) {
-        const bool is_default = method.name == "axis_aligned";
+        const bool is_default = method.name == default_method;
         const bool is_plain = method.name == "unfiltered";
         if (!all_methods && !is_named(options.only, method.name)) continue;
         if (!row.knob.all_methods && !is_default && !(is_plain && row.knob.name == "split"))

@@ -106,17 +106,21 @@ Spread mean_over_frames(const Group& group, const auto& value) {
     return spread_of(std::move(means));
 }
 
+const Cost& trace_of(const FrameRun& frame, const MethodRun& run) {
+    return run.trace ? *run.trace : frame.trace;
+}
+
 StageSpreads stages_of(const Group& group, double Cost::*clock) {
     StageSpreads s;
     s.slam = mean_over_frames(group, [](const FrameRun& f, const MethodRun&) { return f.slam_ms; });
-    s.trace = mean_over_frames(group,
-                               [=](const FrameRun& f, const MethodRun&) { return f.trace.*clock; });
+    s.trace = mean_over_frames(
+        group, [=](const FrameRun& f, const MethodRun& r) { return trace_of(f, r).*clock; });
     s.filter = mean_over_frames(
         group, [=](const FrameRun&, const MethodRun& r) { return r.filter.*clock; });
     s.composite = mean_over_frames(
         group, [=](const FrameRun&, const MethodRun& r) { return r.composite.*clock; });
     s.total = mean_over_frames(group, [=](const FrameRun& f, const MethodRun& r) {
-        return f.trace.*clock + r.filter.*clock + r.composite.*clock;
+        return trace_of(f, r).*clock + r.filter.*clock + r.composite.*clock;
     });
     return s;
 }
@@ -136,7 +140,7 @@ std::vector<CellFrame> frames_of(const Group& group) {
             for (const MethodRun* again : group.runs_of(*unit))
                 for (const FrameRun& f : unit->frames)
                     if (f.frame == run->frame && again->frame == run->frame)
-                        ms.push_back(f.trace.wall_ms + again->filter.wall_ms +
+                        ms.push_back(trace_of(f, *again).wall_ms + again->filter.wall_ms +
                                      again->composite.wall_ms);
         frame.ms = spread_of(std::move(ms)).median;
         result.push_back(frame);
@@ -144,14 +148,16 @@ std::vector<CellFrame> frames_of(const Group& group) {
     return result;
 }
 
-RayCounts mean_rays(const UnitRun& unit) {
+RayCounts mean_rays(const UnitRun& unit, const std::vector<const MethodRun*>& runs) {
     RayCounts mean;
-    const auto n = std::uint64_t(std::max<std::size_t>(1, unit.frames.size()));
+    const auto n = std::uint64_t(std::max<std::size_t>(1, runs.size()));
     for (std::uint64_t RayCounts::*kind :
          {&RayCounts::primary, &RayCounts::virtual_shadow, &RayCounts::virtual_indirect,
           &RayCounts::real_shadow, &RayCounts::real_indirect}) {
-        for (const FrameRun& frame : unit.frames)
-            mean.*kind += frame.rays.*kind;
+        for (const MethodRun* run : runs)
+            for (const FrameRun& frame : unit.frames)
+                if (frame.frame == run->frame)
+                    mean.*kind += (run->rays ? *run->rays : frame.rays).*kind;
         mean.*kind /= n;
     }
     return mean;
@@ -188,7 +194,7 @@ Cell cell_of(const Group& all) {
     const Group group = finished(all);
     cell.wall = stages_of(group, &Cost::wall_ms);
     cell.cpu = stages_of(group, &Cost::cpu_ms);
-    cell.rays = mean_rays(first);
+    cell.rays = mean_rays(first, runs);
     cell.peak_mb = first.peak_mb;
     cell.converged = error_of(runs, &MethodRun::converged);
     cell.truth = error_of(runs, &MethodRun::truth);

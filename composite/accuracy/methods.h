@@ -4,13 +4,14 @@
 #include "render/filter/environment_irradiance.h"
 #include "render/filter/filter_settings.h"
 #include "render/trace/layers.h"
+#include "render/trace/two_mode_sampler.h"
 
 #include <string>
 #include <vector>
 
 namespace inlay {
 
-/// What every method gets: the same samples.
+/// What every method gets: the same samples as all of its estimator.
 struct MethodInput {
     const NoisyLayers& now;
     const NoisyLayers* previous = nullptr;  // null: without the previous frame
@@ -27,8 +28,12 @@ struct Method {
     std::string summary;         // one sentence
     std::vector<double> widths;  // tried, of which the best one stands for the method; empty: none
     Layers (*apply)(const MethodInput& input);
-    bool needs_unshadowed = false;  // the samples without their shadows, too
+    bool needs_unshadowed = false;              // the samples without their shadows, too
+    Estimator estimator = Estimator::two_mode;  // that takes its samples
 };
+
+/// The row that stands for the program's default settings.
+inline constexpr const char* default_method = "difference";
 
 /// All methods; a new technique is one row here.
 const std::vector<Method>& methods();

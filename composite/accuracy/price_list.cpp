@@ -8,7 +8,6 @@ namespace inlay {
 namespace {
 
 /// The method whose price the others are compared with, and the setting at which they are.
-constexpr const char* default_method = "axis_aligned";
 constexpr const char* anchor_knob = "samples";
 constexpr const char* anchor_value = "16";
 

@@ -28,10 +28,18 @@ const NoisyLayers* layers_of(const std::optional<SampledFrame>& frame) {
     return frame ? &frame->result.layers : nullptr;
 }
 
-Samplings take_samples(const Work& work, const JudgedFrame& frame, const UnitPlan& plan) {
+/// Those of one estimator; none where no cell takes them.
+std::optional<Samplings> take_samples(const Work& work, const JudgedFrame& frame,
+                                      const UnitPlan& plan, Estimator estimator) {
     SamplingSettings sampling = plan.settings.trace;
-    for (const MethodCell& cell : plan.cells)
+    sampling.estimator = estimator;
+    bool asked = false;
+    for (const MethodCell& cell : plan.cells) {
+        if (cell.method->estimator != estimator) continue;
+        asked = true;
         sampling.unshadowed = sampling.unshadowed || cell.method->needs_unshadowed;
+    }
+    if (!asked) return std::nullopt;
     const auto index = std::uint32_t(frame.now.frame);
     Samplings taken;
     if (frame.previous) taken.previous = sample_frame(work, *frame.previous, sampling, index - 1);
@@ -128,6 +136,7 @@ SampledFrame sample_frame(const Work& work, const TrackedFrame& frame,
 
 SamplingSettings many_samples(SamplingSettings sampling, int samples) {
     constexpr int most_secondary = 16;
+    sampling.estimator = Estimator::two_mode;
     sampling.secondary = std::min(most_secondary, samples);
     sampling.primary = std::max(1, samples / sampling.secondary);
     sampling.virtual_repeats = 1;
@@ -175,12 +184,19 @@ UnitRun measure_unit(const Work& given, const std::vector<JudgedFrame>& frames,
     unit.secondary = plan.settings.trace.secondary;
     for (const JudgedFrame* compared : compared_frames(frames)) {
         const JudgedFrame& frame = *compared;
-        const Samplings taken = take_samples(work, frame, plan);
-        unit.frames.push_back(
-            {frame.now.frame, frame.now.slam_ms, taken.now.cost, taken.now.result.rays});
+        const auto shared = take_samples(work, frame, plan, Estimator::two_mode);
+        const auto own = take_samples(work, frame, plan, Estimator::difference);
+        FrameRun costs{frame.now.frame, frame.now.slam_ms, {}, {}};
+        if (shared) costs.trace = shared->now.cost, costs.rays = shared->now.result.rays;
+        unit.frames.push_back(costs);
         for (const MethodCell& cell : plan.cells) {
             if (cell.temporal && !frame.previous) continue;
+            const bool takes_own = cell.method->estimator == Estimator::difference;
+            const Samplings& taken = takes_own ? *own : *shared;
             unit.runs.push_back(run_method(work, frame, taken, plan, cell));
+            if (!takes_own) continue;
+            unit.runs.back().trace = taken.now.cost;
+            unit.runs.back().rays = taken.now.result.rays;
         }
     }
     unit.peak_mb = peak_memory_mb();

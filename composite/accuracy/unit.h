@@ -35,6 +35,8 @@ struct MethodRun {
     double width = 0;
     int frame = 0;
     Cost filter, composite;
+    std::optional<Cost> trace;      // of samples of its own; none: the frame's
+    std::optional<RayCounts> rays;  // the same
     std::optional<FrameError> converged, truth;
     std::optional<double> flicker;  // RMS change of a still camera's picture, relative radiance
     std::string failed;             // empty: it did not
@@ -43,7 +45,7 @@ struct MethodRun {
 struct FrameRun {
     int frame = 0;
     double slam_ms = 0;
-    Cost trace;
+    Cost trace;  // of the samples that both modes share; 0 where no method takes them
     RayCounts rays;
 };
 

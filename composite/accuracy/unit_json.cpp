@@ -35,6 +35,8 @@ json json_of(const MethodRun& run) {
             {"frame", run.frame},
             {"filter", run.filter},
             {"composite", run.composite},
+            {"trace", optional_json(run.trace)},
+            {"rays", optional_json(run.rays)},
             {"converged", optional_json(run.converged)},
             {"truth", optional_json(run.truth)},
             {"flicker", optional_json(run.flicker)},
@@ -49,6 +51,8 @@ MethodRun run_from(const json& in) {
     run.frame = in.at("frame");
     run.filter = in.at("filter");
     run.composite = in.at("composite");
+    run.trace = optional_from<Cost>(in.at("trace"));
+    run.rays = optional_from<RayCounts>(in.at("rays"));
     run.converged = optional_from<FrameError>(in.at("converged"));
     run.truth = optional_from<FrameError>(in.at("truth"));
     run.flicker = optional_from<double>(in.at("flicker"));

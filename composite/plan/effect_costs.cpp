@@ -1,11 +1,16 @@
 #include "composite/plan/effect_costs.h"
 
+#include "render/trace/change_estimator.h"
+
 #include <algorithm>
 
 namespace inlay {
 namespace {
 
 double light_samples(const SamplingSettings& s) { return double(s.primary) * s.secondary; }
+
+/// Per camera ray: half of the directions over the cones, at most, and the samples of E_R.
+double half_of_cones(const SamplingSettings& s) { return (s.secondary + 1) / 2; }
 
 template <class Test>
 double share(const SceneFacts& facts, double ObjectInView::*kind, const Test& test) {
@@ -26,27 +31,45 @@ RaysPerPixel indirect_rays(const PlanInput& input, double samples) {
     return {0, at_hits, samples, at_hits, samples};
 }
 
+/// Camera rays per pixel where virtual surfaces are in view, beyond those that every pixel takes.
+int further_looks(const SamplingSettings& s) {
+    return std::max({0, s.coverage - s.primary, s.primary * (s.virtual_repeats - 1)});
+}
+
 /// Samples on virtual surfaces beyond those that every pixel takes: repeats where they are seen,
 /// and a block more of each kind of surface that only coverage rays meet.
 double further_samples(const SamplingSettings& s, double covered, double with_rim) {
     const double repeats = light_samples(s) * (s.virtual_repeats - 1) * covered;
-    const bool refined = s.coverage > s.primary;
-    return repeats + (refined ? double(s.secondary) * (s.virtual_repeats + 1) * with_rim : 0);
+    return repeats +
+           (further_looks(s) > 0 ? double(s.secondary) * (s.virtual_repeats + 1) * with_rim : 0);
 }
 
 }  // namespace
 
 EffectCost cost_of_direct(const PlanInput& input) {
-    const double samples = light_samples(input.sampling);
-    return {{{"direct light", samples, 1}}, {0, samples, 0, samples, 0}};
+    const SamplingSettings& s = input.sampling;
+    const double samples = light_samples(s);
+    if (s.estimator == Estimator::two_mode)
+        return {{{"direct light", samples, 1}}, {0, samples, 0, samples, 0}};
+    const double tries = s.light_tries * samples + s.primary * half_of_cones(s);
+    const double real = s.primary * real_light_samples(s);
+    return {{{"directions tried for a change", tries, 1}, {"real direct light", real, 1}},
+            {0, tries, 0, tries + real, 0}};
 }
 
 EffectCost cost_of_indirect(const PlanInput& input) {
-    const double samples = light_samples(input.sampling);
-    EffectCost cost{
-        {{"camera rays", double(input.sampling.primary), 1}, {"indirect light", samples, 1}},
-        indirect_rays(input, samples)};
-    cost.rays.primary = input.sampling.primary;
+    const SamplingSettings& s = input.sampling;
+    const double samples = light_samples(s);
+    EffectCost cost{{{"camera rays", double(s.primary), 1}, {"indirect light", samples, 1}},
+                    indirect_rays(input, samples)};
+    cost.rays.primary = s.primary;
+    if (s.estimator == Estimator::two_mode) return cost;
+    const double real = s.primary * real_light_samples(s);
+    const double tries = s.primary * half_of_cones(s);
+    cost.passes = {{"camera rays", double(s.primary), 1},
+                   {"directions tried for an exchange", tries, 1},
+                   {"real indirect light", real, 1}};
+    cost.rays.real_indirect = std::max(samples, tries + real);  // on virtual surfaces, on real ones
     return cost;
 }
 
@@ -54,7 +77,7 @@ EffectCost cost_of_virtual_surfaces(const PlanInput& input) {
     const SamplingSettings& s = input.sampling;
     const double covered = seen_share(input.facts, &ObjectInView::share_of_view);
     const double with_rim = seen_share(input.facts, &ObjectInView::share_with_rim);
-    const double coverage = std::max(0, s.coverage - s.primary);
+    const double coverage = further_looks(s);
     const double further = further_samples(s, with_rim, with_rim);
     EffectCost cost{{}, indirect_rays(input, further)};
     cost.rays.primary = coverage * with_rim;

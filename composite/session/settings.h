@@ -37,7 +37,7 @@ struct Settings {
     SlamSettings slam;
     bool use_recorded_poses = false;
     GeometrySettings geometry;
-    SamplingSettings trace{.depth_tolerance = 0.004f};
+    SamplingSettings trace{.estimator = Estimator::difference, .depth_tolerance = 0.004f};
     FilterSettings filter{.real_curvature = false};  // eq. 6.2 takes real irradiances as a ratio
     BlendSettings blend;
 };

@@ -21,16 +21,15 @@ std::uint32_t permute_upwards(std::uint32_t x, std::uint32_t seed) {
     return x;
 }
 
-std::uint32_t owen_scramble(std::uint32_t x, std::uint32_t seed) {
-    return reverse_bits(permute_upwards(reverse_bits(x), seed));
-}
-
-/// Second dimension of the Sobol sequence (the first is the reversed index).
-std::uint32_t sobol_second(std::uint32_t index) {
-    std::uint32_t result = 0;
-    for (std::uint32_t v = 1U << 31; index != 0; index >>= 1, v ^= v >> 1)
-        if (index & 1U) result ^= v;
-    return result;
+/// The second dimension of the Sobol sequence (the first is the reversed index), bits reversed: bit
+/// j is the sum, modulo 2, of the index's bits i with i choose j odd, which are those that contain
+/// j's bits (Lucas).
+std::uint32_t reversed_sobol_second(std::uint32_t x) {
+    x ^= (x >> 1) & 0x55555555U;
+    x ^= (x >> 2) & 0x33333333U;
+    x ^= (x >> 4) & 0x0f0f0f0fU;
+    x ^= (x >> 8) & 0x00ff00ffU;
+    return x ^ (x >> 16);
 }
 
 float to_unit(std::uint32_t bits) { return float(bits >> 8) * 0x1p-24f; }
@@ -39,9 +38,9 @@ float to_unit(std::uint32_t bits) { return float(bits >> 8) * 0x1p-24f; }
 
 glm::vec2 stratified_pair(const SampleKey& k, std::uint32_t dimension) {
     const std::uint32_t set = hash(hash(hash(hash(k.seed), k.frame), k.pixel), dimension);
-    const std::uint32_t index = owen_scramble(k.sample, hash(set, 1));
-    return {to_unit(owen_scramble(reverse_bits(index), hash(set, 2))),
-            to_unit(owen_scramble(sobol_second(index), hash(set, 3)))};
+    const std::uint32_t index = reverse_bits(permute_upwards(reverse_bits(k.sample), hash(set, 1)));
+    return {to_unit(reverse_bits(permute_upwards(index, hash(set, 2)))),
+            to_unit(reverse_bits(permute_upwards(reversed_sobol_second(index), hash(set, 3))))};
 }
 
 }  // namespace inlay

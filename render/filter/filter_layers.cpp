@@ -53,6 +53,26 @@ Receivers prepare(const NoisyLayers& now, const NoisyLayers* previous, Receiver 
     return result;
 }
 
+/// Real receivers with the rates of what changes their light in the place of those of all light.
+Receiver for_change(const NoisyLayers& layers) {
+    Receiver result = layers.real;
+    result.occluder_direct = layers.change_rates.direct;
+    result.occluder_indirect = layers.change_rates.indirect;
+    return result;
+}
+
+/// As `real`, for the change E_RV - E_R.
+Receivers prepare_change(const NoisyLayers& now, const NoisyLayers* previous, const Receivers& real,
+                         const FilterSettings& settings) {
+    Receivers result = real;
+    if (real.now.empty) return result;
+    result.now.receiver = completed(for_change(now), settings);
+    if (previous != nullptr && !real.source.empty())
+        result.previous =
+            resampled(result.now, completed(for_change(*previous), settings), real.source);
+    return result;
+}
+
 Image<Rgb> rgb_of(const std::vector<Image<float>>& channels, std::size_t first) {
     Image<Rgb> result(channels[first].width, channels[first].height, Rgb(0));
     parallel_rows(result.height, [&](int y) {
@@ -107,6 +127,7 @@ struct Frames {
     const FilterSettings& settings;
     const EnvironmentIrradiance* open_sky;  // null: irradiance is smoothed, not the shadow ratio
     Receivers real, virtual_;
+    Receivers change;  // as `real`, with the rates of the change; empty unless sampled for itself
 };
 
 using Layer = Image<Rgb> Irradiance::*;
@@ -127,19 +148,21 @@ void scale_to_open_sky(const EnvironmentIrradiance& open_sky, const Receiver& re
     });
 }
 
+const Irradiance& light_of(const NoisyLayers& layers, LightKind kind) {
+    return kind == LightKind::direct ? layers.direct : layers.indirect;
+}
+
 /// Smooths the named layers of one kind of light; returns 1 / sigma per pixel.
 Image<float> smooth_light(const Frames& frames, const Receivers& receivers,
                           std::span<const Layer> layers, LightKind kind, Layers& result) {
     const bool is_direct = kind == LightKind::direct;
-    const auto light_of = [&](const NoisyLayers& frame) -> const Irradiance& {
-        return is_direct ? frame.direct : frame.indirect;
-    };
     Irradiance& out = is_direct ? result.direct : result.indirect;
     const bool as_ratio = is_direct && frames.open_sky != nullptr;
     std::vector<const Image<Rgb>*> now, before;
     for (const Layer layer : layers) {
-        now.push_back(&(light_of(frames.now).*layer));
-        if (frames.previous != nullptr) before.push_back(&(light_of(*frames.previous).*layer));
+        now.push_back(&(light_of(frames.now, kind).*layer));
+        if (frames.previous != nullptr)
+            before.push_back(&(light_of(*frames.previous, kind).*layer));
     }
     if (as_ratio) {
         const auto unshadowed =
@@ -179,11 +202,48 @@ Image<float> of_larger_cover(const Image<float>& m, const Image<float>& real,
     return result;
 }
 
+Image<Rgb> difference(const Image<Rgb>& a, const Image<Rgb>& b) {
+    Image<Rgb> result(a.width, a.height);
+    parallel_rows(a.height, [&](int y) {
+        for (int x = 0; x < a.width; ++x)
+            result(x, y) = a(x, y) - b(x, y);
+    });
+    return result;
+}
+
+Image<Rgb> change_of(const NoisyLayers& layers, LightKind kind) {
+    const Irradiance& light = light_of(layers, kind);
+    return difference(light.e_rv_real, light.e_r);
+}
+
+/// Smooths E_R and the change apart, each with its own width; returns 1 / sigma of the change.
+Image<float> smooth_difference(const Frames& frames, LightKind kind, Layers& result) {
+    constexpr std::array<Layer, 1> real_alone{&Irradiance::e_r};
+    smooth_light(frames, frames.real, real_alone, kind, result);
+    Irradiance& out = kind == LightKind::direct ? result.direct : result.indirect;
+    out.e_rv_real = out.e_r;
+    if (frames.real.now.empty) return Image<float>(out.e_r.width, out.e_r.height);
+    const Image<Rgb> now = change_of(frames.now, kind);
+    const Image<Rgb> before =
+        frames.previous != nullptr ? change_of(*frames.previous, kind) : Image<Rgb>{};
+    const std::array<const Image<Rgb>*, 1> images{&now}, images_before{&before};
+    const LightLimits limits{kind, frames.environment_bandwidth, nullptr, frames.now.samples};
+    const Smoothed smoothed =
+        smooth(frames.change, images, frames.previous != nullptr ? Images(images_before) : Images{},
+               {limits, limits}, frames.settings);
+    const Image<Rgb> change = rgb_of(smoothed.channels, 0);
+    for (std::size_t i = 0; i < change.pixels.size(); ++i)
+        out.e_rv_real.pixels[i] = glm::max(out.e_r.pixels[i] + change.pixels[i], 0.0f);
+    return smoothed.inverse_width;
+}
+
 /// Smooths both kinds of receiver; returns 1 / sigma of the kind that covers more of each pixel.
 Image<float> smooth_both(const Frames& frames, LightKind kind, Layers& result) {
     constexpr std::array<Layer, 2> on_real{&Irradiance::e_r, &Irradiance::e_rv_real};
     constexpr std::array<Layer, 1> on_virtual{&Irradiance::e_rv_virtual};
-    Image<float> real = smooth_light(frames, frames.real, on_real, kind, result);
+    const bool apart = !frames.now.change_rates.direct.empty();
+    Image<float> real = apart ? smooth_difference(frames, kind, result)
+                              : smooth_light(frames, frames.real, on_real, kind, result);
     if (frames.now.k_v.empty()) return real;  // no virtual surface is seen
     const Image<float> of_virtual = smooth_light(frames, frames.virtual_, on_virtual, kind, result);
     return of_larger_cover(frames.now.m, real, of_virtual);
@@ -241,13 +301,16 @@ Layers filter_layers(const NoisyLayers& now, const NoisyLayers* previous,
     if (!settings.temporal) previous = nullptr;
     if (previous != nullptr) require_layer_sizes(*previous);
     if (previous != nullptr && open_sky != nullptr) require_unshadowed(*previous);
-    const Frames frames{now,
-                        previous,
-                        environment_bandwidth,
-                        settings,
-                        open_sky,
-                        prepare(now, previous, &NoisyLayers::real, settings),
-                        prepare(now, previous, &NoisyLayers::virtual_, settings)};
+    Frames frames{now,
+                  previous,
+                  environment_bandwidth,
+                  settings,
+                  open_sky,
+                  prepare(now, previous, &NoisyLayers::real, settings),
+                  prepare(now, previous, &NoisyLayers::virtual_, settings),
+                  {}};
+    if (!now.change_rates.direct.empty())
+        frames.change = prepare_change(now, previous, frames.real, settings);
     Layers result{now.m, now.k_v, now.s_rv, {}, {}, {}, {}};
     result.bandwidth_direct = smooth_both(frames, LightKind::direct, result);
     result.bandwidth_indirect = smooth_both(frames, LightKind::indirect, result);

@@ -9,6 +9,7 @@ namespace inlay {
 struct DiscreteTable {
     std::vector<double> cumulative;  // of weights shares; the last entry is 1. Empty: no weights
     double total = 0;                // sum of the weights
+    std::vector<int> first;  // k: the index that k / size falls on, where a search for more begins
 };
 
 struct DiscreteSample {

@@ -89,16 +89,20 @@ LightSample sample_environment(const EnvironmentSampler& sampler, glm::vec2 u) {
             radiance(column.index, row.index), float(pdf)};
 }
 
-float pdf_environment(const EnvironmentSampler& sampler, const glm::vec3& direction) {
+LightSample sample_along(const EnvironmentSampler& sampler, const glm::vec3& direction) {
     const Image<Rgb>& radiance = sampler.map.radiance;
     const glm::dvec3 in_map =
         glm::transpose(sampler.map.world_from_environment) * glm::dvec3(direction);
     const glm::dvec2 texel = texel_from_direction(radiance, in_map);
     const int x = std::min(int(texel.x), radiance.width - 1);
     const int y = std::min(int(texel.y), radiance.height - 1);
-    return float(probability_of(sampler.rows, y) *
-                 probability_of(sampler.texels[std::size_t(y)], x) /
-                 texel_solid_angle(radiance, y));
+    const double probability =
+        probability_of(sampler.rows, y) * probability_of(sampler.texels[std::size_t(y)], x);
+    return {direction, radiance(x, y), float(probability / texel_solid_angle(radiance, y))};
+}
+
+float pdf_environment(const EnvironmentSampler& sampler, const glm::vec3& direction) {
+    return sample_along(sampler, direction).pdf;
 }
 
 }  // namespace inlay

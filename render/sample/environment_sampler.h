@@ -43,6 +43,10 @@ EnvironmentSampler make_light_list(EnvironmentMap map, int length, std::uint32_t
 
 LightSample sample_environment(const EnvironmentSampler& sampler, glm::vec2 u);
 
+/// The sample of a unit direction (world) as sample_environment would have returned it: one look-up
+/// for the radiance and the density. The density is 0 where nothing can be drawn.
+LightSample sample_along(const EnvironmentSampler& sampler, const glm::vec3& direction);
+
 /// Density (per steradian) with which sample_environment returns a unit direction (world).
 float pdf_environment(const EnvironmentSampler& sampler, const glm::vec3& direction);
 

@@ -14,22 +14,34 @@ constexpr float pi = std::numbers::pi_v<float>;
 /// (Veach 1997, one-sample model): else a narrow lobe would meet bright light too rarely.
 LightSample light_for_hit(const SamplePass& pass, const Landing& at, const SampleKey& key) {
     const EnvironmentSampler& environment = pass.scene.environment;
-    const glm::vec2 u = stratified_pair(key, light_at_hit);
-    if (!at.bsdf.glossy) return sample_environment(environment, u);
+    const LightSample& light = pass.nets.at(first_net(key, light_at_hit), int(key.sample));
+    if (!at.bsdf.glossy) return light;
+    const glm::vec2 u = stratified_pair(key, glossy_lobe_at_hit);
     LightSample sample;
     if (uniform(key, lobe_or_light) < 0.5f) {
         sample.direction = sample_glossy(at.bsdf, at.frame, u).direction;
         sample.radiance = radiance_from(environment.map, sample.direction);
         sample.pdf = pdf_environment(environment, sample.direction);
     } else {
-        sample = sample_environment(environment, u);
+        sample = light;
     }
     sample.pdf = 0.5f * (sample.pdf + pdf_glossy(at.bsdf, at.frame, sample.direction));
     return sample;
 }
 
-/// Radiance that virtual surfaces send back along indirect rays: shaded with one environment sample
-/// each, shadowed by real and virtual geometry.
+}  // namespace
+
+std::uint64_t count(const RayPacket& rays) { return std::uint64_t(std::popcount(rays.active)); }
+
+void RayPair::set(int lane, const Landing& from, const glm::vec3& direction, float real_offset) {
+    const float offset = from.kind == LandingKind::real ? real_offset : surface_offset;
+    against_virtual.set(lane,
+                        ray_origin(from.position, from.geometric_normal, direction, surface_offset),
+                        direction);
+    against_real.set(lane, ray_origin(from.position, from.geometric_normal, direction, offset),
+                     direction);
+}
+
 RadiancePacket shade_virtual_hits(SamplePass& pass, const RayPacket& rays, const HitPacket& hits,
                                   std::uint32_t lanes) {
     RadiancePacket radiance{};
@@ -59,19 +71,6 @@ RadiancePacket shade_virtual_hits(SamplePass& pass, const RayPacket& rays, const
         if (((by_virtual >> lane) & 1U) || by_real[i] != no_hit) radiance[i] = Rgb(0);
     }
     return radiance;
-}
-
-}  // namespace
-
-std::uint64_t count(const RayPacket& rays) { return std::uint64_t(std::popcount(rays.active)); }
-
-void RayPair::set(int lane, const Landing& from, const glm::vec3& direction, float real_offset) {
-    const float offset = from.kind == LandingKind::real ? real_offset : surface_offset;
-    against_virtual.set(lane,
-                        ray_origin(from.position, from.geometric_normal, direction, surface_offset),
-                        direction);
-    against_real.set(lane, ray_origin(from.position, from.geometric_normal, direction, offset),
-                     direction);
 }
 
 Bounce bounce(SamplePass& pass, const RayPair& rays) {

@@ -23,6 +23,11 @@ struct Bounce {
 /// sample each, shadowed by real and virtual geometry.
 Bounce bounce(SamplePass& pass, const RayPair& rays);
 
+/// Radiance that virtual surfaces send back along the rays of `lanes` (a bit mask), which meet them
+/// at `hits`: shaded with one environment sample each, shadowed by real and virtual geometry.
+RadiancePacket shade_virtual_hits(SamplePass& pass, const RayPacket& rays, const HitPacket& hits,
+                                  std::uint32_t lanes);
+
 /// Number of rays in a packet.
 std::uint64_t count(const RayPacket& rays);
 

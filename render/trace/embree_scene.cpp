@@ -5,6 +5,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -14,6 +15,19 @@ namespace {
 
 /// AVX2 on every machine: other instruction sets change the last bits of hits.
 constexpr const char* device_settings = "isa=avx2";
+
+constexpr int spheres_per_mesh = 16;
+constexpr int spheres_per_scene = 64;
+
+/// No axis of a transform stretches more than the root of the sum of their squares.
+BoundingSphere in_world(const BoundingSphere& sphere, const glm::mat4& world_from_local) {
+    const glm::mat3 linear(world_from_local);
+    const float x = glm::length(linear[0]), y = glm::length(linear[1]), z = glm::length(linear[2]);
+    const bool is_similarity = std::max({x, y, z}) <= 1.0001f * std::min({x, y, z});
+    const float stretch =
+        is_similarity ? std::max({x, y, z}) * 1.0001f : std::sqrt(x * x + y * y + z * z);
+    return {glm::vec3(world_from_local * glm::vec4(sphere.centre, 1)), sphere.radius * stretch};
+}
 
 [[noreturn]] void refuse(const std::string& what) {
     throw Error(ExitCode::bad_data, "ray tracing (Embree): " + what);
@@ -90,11 +104,13 @@ struct EmbreeSceneCache::Structures {
     RTCDevice device = rtcNewDevice(device_settings);
     std::map<std::shared_ptr<const TriangleMesh>, RTCScene> meshes;
     std::map<float, RTCScene> spheres;  // by radius
+    std::map<std::shared_ptr<const TriangleMesh>, std::vector<BoundingSphere>> bounds;
 
     void release_meshes() {
         for (const auto& [mesh, scene] : meshes)
             rtcReleaseScene(scene);
         meshes.clear();
+        bounds.clear();
     }
 
     ~Structures() {
@@ -102,6 +118,14 @@ struct EmbreeSceneCache::Structures {
         for (const auto& [radius, scene] : spheres)
             rtcReleaseScene(scene);
         rtcReleaseDevice(device);
+    }
+
+    /// In the part's own coordinates.
+    std::vector<BoundingSphere> bounds_of(const PlacedPart& part) {
+        if (!part.mesh) return {{glm::vec3(0), part.radius}};
+        const auto [at, is_new] = bounds.try_emplace(part.mesh);
+        if (is_new) at->second = enclosing_spheres(*part.mesh, spheres_per_mesh);
+        return at->second;
     }
 
     RTCScene structure_of(const PlacedPart& part) {
@@ -237,7 +261,12 @@ EmbreeScene EmbreeSceneCache::place(const VirtualScene& scene, double time,
             parts.push_back(std::move(placed));
         }
     }
-    return build(std::move(parts));
+    EmbreeScene result = build(std::move(parts));
+    for (const PlacedPart& part : result.parts_)
+        for (const BoundingSphere& sphere : structures_->bounds_of(part))
+            result.bounds_.push_back(in_world(sphere, part.world_from_local));
+    result.bounds_ = enclosing_spheres(std::move(result.bounds_), spheres_per_scene);
+    return result;
 }
 
 EmbreeScene EmbreeSceneCache::place(std::shared_ptr<const TriangleMesh> mesh) {

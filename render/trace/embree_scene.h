@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/scene/virtual_scene.h"
+#include "render/trace/bounding_spheres.h"
 
 #include <glm/glm.hpp>
 
@@ -74,6 +75,8 @@ public:
     EmbreeScene& operator=(EmbreeScene&&) noexcept;
 
     const std::vector<PlacedPart>& parts() const { return parts_; }
+    /// Spheres that hold all parts (m, world); none for a scene placed from one mesh.
+    const std::vector<BoundingSphere>& bounds() const { return bounds_; }
 
     HitPacket intersect(const RayPacket& rays) const;     // nearest hits
     std::uint32_t occluded(const RayPacket& rays) const;  // bit mask of lanes that hit anything
@@ -86,6 +89,7 @@ private:
     struct Handles;
     std::unique_ptr<Handles> handles_;
     std::vector<PlacedPart> parts_;
+    std::vector<BoundingSphere> bounds_;
 };
 
 /// Keeps the acceleration structure of each mesh, so that a frame only places them anew.

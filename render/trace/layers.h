@@ -41,6 +41,13 @@ struct Unshadowed {
     Image<Rgb> virtual_;  // goes with direct e_rv_virtual
 };
 
+/// How fast E_RV - E_R may vary on a real surface, where that change was sampled for itself:
+/// largest cos/r (1/m) of the virtual surfaces met, 0: none. Empty images: both modes shared their
+/// samples.
+struct ChangeRates {
+    Image<float> direct, indirect;
+};
+
 /// Per-pixel Monte Carlo estimates of one frame, with the camera that saw them.
 struct NoisyLayers {
     Lens lens;
@@ -54,6 +61,7 @@ struct NoisyLayers {
                       // B_rho, where no glossy one can be seen
     Image<float> glossy_bandwidth;  // B_rho (1/rad) of the glossy lobe, 0: no glossy surface here
     Irradiance direct, indirect;
+    ChangeRates change_rates;
     Receiver real;                      // R and RV together: the larger cos/r of both modes
     Receiver virtual_;                  // real geometry counts as occluder too
     std::uint64_t dropped_samples = 0;  // non-finite ones, left out of every mean

@@ -11,16 +11,6 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-/// cos/r (1/m) of an occluder, with distances below the floor counted as the floor, and none below
-/// the distance at which rays start.
-float occluder_rate(const Landing& from, const glm::vec3& direction, float distance,
-                    const SamplingSettings& settings) {
-    const float cosine = std::max(0.0f, glm::dot(from.normal, direction));
-    return cosine / std::max({distance, settings.occluder_floor * from.distance, surface_offset});
-}
-
-void widen(float& rate, float candidate) { rate = std::max(rate, candidate); }
-
 /// What became of one shadow ray.
 struct ShadowRay {
     bool traced = false;                          // the light is above the surface
@@ -66,8 +56,8 @@ void add_direct(SamplePass& pass) {
         const auto i = std::size_t(lane);
         const Landing& from = pass.landings[i];
         if (from.kind == LandingKind::nothing) continue;
-        lights[i] = sample_environment(pass.scene.environment,
-                                       stratified_pair(pass.keys[i], light_direction));
+        const SampleKey& key = pass.keys[i];
+        lights[i] = pass.nets.at(first_net(key, light_direction), int(key.sample));
         if (lights[i].pdf > 0 && glm::dot(from.normal, lights[i].direction) > 0)
             rays.set(lane, from, lights[i].direction, pass.scene.real.offset);
     }

@@ -1,5 +1,6 @@
 #include "render/trace/pixel_sums.h"
 
+#include <algorithm>
 #include <numbers>
 
 namespace inlay {
@@ -13,6 +14,14 @@ void store(const ReceiverSums& sums, std::size_t i, Receiver& receiver) {
     receiver.normal.pixels[i] = length > 0 ? glm::vec3(sums.normal / length) : glm::vec3(0, 0, 1);
     receiver.occluder_direct.pixels[i] = sums.occluder_direct;
     receiver.occluder_indirect.pixels[i] = sums.occluder_indirect;
+}
+
+void store(const ChangeSums& sums, std::size_t i, NoisyLayers& layers) {
+    const double rays = std::max(sums.camera_rays, 1);
+    layers.direct.e_rv_real.pixels[i] = layers.direct.e_r.pixels[i] + Rgb(sums.direct / rays);
+    layers.indirect.e_rv_real.pixels[i] = layers.indirect.e_r.pixels[i] + Rgb(sums.indirect / rays);
+    layers.change_rates.direct.pixels[i] = sums.rate_direct;
+    layers.change_rates.indirect.pixels[i] = sums.rate_indirect;
 }
 
 /// What is known of the virtual surfaces at a pixel.
@@ -49,6 +58,7 @@ void store(const PixelSums& sums, int x, int y, NoisyLayers& layers) {
     layers.direct.e_rv_real.pixels[i] = sums.direct.e_rv.mean();
     layers.indirect.e_r.pixels[i] = sums.indirect.e_r.mean();
     layers.indirect.e_rv_real.pixels[i] = sums.indirect.e_rv.mean();
+    if (!layers.change_rates.direct.empty()) store(sums.change, i, layers);
     if (!layers.unshadowed.real.empty())
         layers.unshadowed.real.pixels[i] = sums.unshadowed_real.mean();
     store(sums.real, i, layers.real);
@@ -65,6 +75,8 @@ NoisyLayers make_noisy_layers(const Lens& lens, const Pose& world_from_camera,
     layers.m = Image<float>(w, h, 1.0f);
     layers.direct = layers.indirect = make_irradiance(w, h, settings.virtual_seen);
     layers.real = make_receiver(w, h);
+    if (settings.estimator == Estimator::difference)
+        layers.change_rates = {Image<float>(w, h), Image<float>(w, h)};
     if (!settings.virtual_seen) return layers;
     layers.k_v = Image<Rgb>(w, h);
     layers.virtual_ = make_receiver(w, h);
@@ -77,7 +89,7 @@ NoisyLayers make_noisy_layers(const Lens& lens, const Pose& world_from_camera,
 int dropped(const PixelSums& sums) {
     return sums.direct.e_r.dropped + sums.indirect.e_r.dropped + sums.direct_virtual.dropped +
            sums.indirect_virtual.dropped + sums.glossy_direct.dropped +
-           sums.glossy_indirect.dropped + sums.albedo.dropped;
+           sums.glossy_indirect.dropped + sums.albedo.dropped + sums.change.dropped;
 }
 
 }  // namespace inlay

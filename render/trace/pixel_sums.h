@@ -48,6 +48,21 @@ struct ReceiverSums {
     float occluder_direct = 0, occluder_indirect = 0;  // largest cos/r, 1/m
 };
 
+/// E_RV - E_R, and how fast it may vary.
+struct ChangeSums {
+    int camera_rays = 0, dropped = 0;
+    glm::dvec3 direct{0.0}, indirect{0.0};     // each sample over the samples of its camera ray
+    float rate_direct = 0, rate_indirect = 0;  // largest cos/r of virtual surfaces, 1/m
+
+    /// Leaves out, and counts, what is not finite.
+    void add(glm::dvec3 ChangeSums::*light, const Rgb& value) {
+        if (std::isfinite(value.r + value.g + value.b))
+            this->*light += glm::dvec3(value);
+        else
+            ++dropped;
+    }
+};
+
 struct PixelSums {
     int looks = 0, looks_virtual = 0;  // camera rays in all, and those that met virtual surfaces
     ReceiverSums real, virtual_;
@@ -55,6 +70,7 @@ struct PixelSums {
     SampleSum direct_virtual, indirect_virtual, glossy_direct, glossy_indirect, albedo;
     SampleSum unshadowed_real, unshadowed_virtual;  // left empty unless asked for
     float glossy_bandwidth = 0;
+    ChangeSums change;  // on real surfaces, where it is sampled for itself
 };
 
 /// Writes a pixel's means into the layers.

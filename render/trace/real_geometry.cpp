@@ -35,7 +35,7 @@ RealGeometry no_real_geometry() {
     nothing.fill(no_hit);
     return {
         [](const RayPacket&, const auto&) { return std::array<RealPrimaryHit, packet_width>{}; },
-        [nothing](const RayPacket&) { return nothing; },
+        [nothing](const RayPacket&) { return nothing; }, [](const RayPacket&) { return 0U; },
         [nothing](const RayPacket&, const SampleKeys&) {
             return RealHits{nothing, {}};
         }};
@@ -60,6 +60,7 @@ RealGeometry exact_real_geometry(const EmbreeScene& scene, const EnvironmentSamp
     real.distances = [&scene](const RayPacket& rays) {
         return distances_of(scene.intersect(rays));
     };
+    real.occluded = [&scene](const RayPacket& rays) { return scene.occluded(rays); };
     real.radiances = [&scene, &environment, dimension](const RayPacket& rays,
                                                        const SampleKeys& keys) {
         RealHits result{distances_of(scene.intersect(rays)), {}};
@@ -82,6 +83,7 @@ RealGeometry mesh_real_geometry(const PhotographedSurface& seen, const EmbreeSce
         return map_primary(map, rays, pixels);
     };
     real.distances = [&mesh](const RayPacket& rays) { return distances_of(mesh.intersect(rays)); };
+    real.occluded = [&mesh](const RayPacket& rays) { return mesh.occluded(rays); };
     real.radiances = [seen, &mesh, visibility_tolerance](const RayPacket& rays, const SampleKeys&) {
         const HitPacket hits = mesh.intersect(rays);
         RealHits result{distances_of(hits), {}};

@@ -32,6 +32,7 @@ struct RealGeometry {
         const RayPacket& camera_rays, const std::array<glm::ivec2, packet_width>& pixels)>
         primary;
     std::function<DistancePacket(const RayPacket&)> distances;
+    std::function<std::uint32_t(const RayPacket&)> occluded;  // bit mask of lanes that hit anything
     std::function<RealHits(const RayPacket&, const SampleKeys&)> radiances;
     float offset = surface_offset;
 };

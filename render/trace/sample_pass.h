@@ -1,10 +1,13 @@
 // SamplePass: one sample of 16 pixels, with everything that its estimators share and add to.
 #pragma once
 
+#include "render/sample/light_nets.h"
 #include "render/trace/landing.h"
 #include "render/trace/pixel_sums.h"
 #include "render/trace/ray_counts.h"
 #include "render/trace/two_mode_sampler.h"
+
+#include <algorithm>
 
 namespace inlay {
 
@@ -15,9 +18,18 @@ enum SampleDimension : std::uint32_t {
     diffuse_lobe,
     glossy_lobe,
     light_at_hit,
+    glossy_lobe_at_hit,
     lobe_or_light,
+    change_by_light,
+    change_by_cones,
+    change_by_cones_again,
     first_path_dimension = 64  // of the path tracer behind exact real geometry
 };
+
+/// The light net that a pixel's samples begin with; estimators of a pixel differ in `dimension`.
+inline std::uint32_t first_net(const SampleKey& key, std::uint32_t dimension) {
+    return hash(hash(key.pixel, hash(key.frame, key.seed)), dimension);
+}
 
 struct SamplePass {
     const TwoModeScene& scene;
@@ -26,11 +38,22 @@ struct SamplePass {
     SampleKeys keys;
     std::array<PixelSums, packet_width>& sums;
     RayCounts& rays;
+    const LightNets& nets;  // the frame's environment samples
 };
 
 /// The sums of the kind of surface that a sample landed on.
 inline ReceiverSums& receiver_of(PixelSums& sums, LandingKind kind) {
     return kind == LandingKind::real ? sums.real : sums.virtual_;
 }
+
+/// cos/r (1/m) of an occluder, with distances below the floor counted as the floor, and none below
+/// the distance at which rays start.
+inline float occluder_rate(const Landing& from, const glm::vec3& direction, float distance,
+                           const SamplingSettings& settings) {
+    const float cosine = std::max(0.0f, glm::dot(from.normal, direction));
+    return cosine / std::max({distance, settings.occluder_floor * from.distance, surface_offset});
+}
+
+inline void widen(float& rate, float candidate) { rate = std::max(rate, candidate); }
 
 }  // namespace inlay

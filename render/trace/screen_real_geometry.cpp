@@ -59,6 +59,13 @@ RealGeometry screen_real_geometry(const PhotographedSurface& seen,
     real.distances = [map, counts](const RayPacket& rays) {
         return distances_of(trace_packet(*map, rays, counts.get()));
     };
+    real.occluded = [map, counts](const RayPacket& rays) {
+        const ScreenHits hits = trace_packet(*map, rays, counts.get());
+        std::uint32_t blocked = 0;
+        for (std::size_t i = 0; i < packet_width; ++i)
+            if (hits[i].status == ScreenStatus::hit) blocked |= 1U << i;
+        return blocked;
+    };
     real.radiances = [&photo = seen.photo, map = std::move(map), counts](const RayPacket& rays,
                                                                          const SampleKeys&) {
         const ScreenHits hits = trace_packet(*map, rays, counts.get());

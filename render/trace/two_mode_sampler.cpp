@@ -2,6 +2,7 @@
 
 #include "recordings/base/check.h"
 #include "recordings/base/parallel.h"
+#include "render/trace/change_estimator.h"
 #include "render/trace/light_estimators.h"
 #include "render/trace/pixel_tile.h"
 
@@ -37,10 +38,20 @@ void look(const Landing& landing, PixelSums& sums) {
     sums.albedo.add(landing.bsdf.diffuse);
 }
 
+/// Environment samples that one estimator of a pixel takes one after the other.
+int largest_net_use(const TwoModeScene& scene, const SamplingSettings& settings) {
+    const int on_virtual = settings.virtual_repeats * settings.secondary;
+    const int on_real = settings.estimator == Estimator::difference
+                            ? change_counts(scene, settings).light
+                            : settings.secondary;
+    return settings.primary * std::max({on_virtual, on_real, 1});
+}
+
 /// The random numbers and rays of one tile.
 struct TilePass {
     const TwoModeScene& scene;
     const SamplingSettings& settings;
+    const LightNets& nets;
     std::uint32_t frame;
     Tile& tile;
 
@@ -59,11 +70,23 @@ struct TilePass {
 
     void add_samples(const Landings& landings, int first_sample) const {
         for (int s = 0; s < settings.secondary; ++s) {
-            SamplePass pass{scene,     settings, landings, keys(first_sample + s),
-                            tile.sums, tile.rays};
+            SamplePass pass{scene,     settings,  landings, keys(first_sample + s),
+                            tile.sums, tile.rays, nets};
             add_direct(pass);
             add_indirect(pass);
             if (settings.glossy_seen) add_glossy(pass);
+        }
+    }
+
+    /// Light samples of real surfaces: few of E_R, and many of what virtual geometry changes.
+    void add_differences(const Landings& landings, int ray) const {
+        const int of_real = real_light_samples(settings);
+        SamplePass pass{scene, settings, landings, keys(ray), tile.sums, tile.rays, nets};
+        add_change({pass, change_counts(scene, settings), ray});
+        for (int s = 0; s < of_real; ++s) {
+            SamplePass of_light{scene,     settings,  landings, keys(ray * of_real + s),
+                                tile.sums, tile.rays, nets};
+            add_real_light(of_light);
         }
     }
 
@@ -87,24 +110,17 @@ bool any_landing(const Landings& landings) {
                        [](const Landing& landing) { return landing.kind != LandingKind::nothing; });
 }
 
-/// Which block of `secondary` sample numbers a camera ray's light takes. Blocks follow each other,
-/// so that a pixel's samples are spread as one sequence: first those of the first `primary` rays,
-/// then their repeats on virtual surfaces, then the ray that stands for all coverage rays.
-int block_of(const SamplingSettings& s, int ray, int repeat) {
-    if (ray == s.primary) return s.primary * s.virtual_repeats + repeat;
-    if (repeat == 0) return ray;
-    return s.primary + ray * (s.virtual_repeats - 1) + repeat - 1;
-}
-
-/// Light samples of what one camera ray of each pixel met, repeated on virtual surfaces.
+/// Light samples of what one camera ray of each pixel met. Each ray takes the sample numbers that
+/// follow those of the ray before it, so that a pixel's samples are spread as one sequence.
 void gather_light(const TilePass& pass, const Landings& landings, int ray) {
-    const SamplingSettings& s = pass.settings;
-    pass.add_samples(landings, block_of(s, ray, 0) * s.secondary);
-    if (s.virtual_repeats == 1) return;
-    const Landings repeated = only(LandingKind::on_virtual, landings);
-    if (!any_landing(repeated)) return;
-    for (int repeat = 1; repeat < s.virtual_repeats; ++repeat)
-        pass.add_samples(repeated, block_of(s, ray, repeat) * s.secondary);
+    const int first_sample = ray * pass.settings.secondary;
+    if (pass.settings.estimator == Estimator::two_mode) {
+        pass.add_samples(landings, first_sample);
+        return;
+    }
+    pass.add_differences(landings, ray);
+    const Landings on_virtual = only(LandingKind::on_virtual, landings);
+    if (any_landing(on_virtual)) pass.add_samples(on_virtual, first_sample);
 }
 
 bool sees_virtual(const Tile& tile) {
@@ -112,29 +128,37 @@ bool sees_virtual(const Tile& tile) {
                        [](const PixelSums& sums) { return sums.looks_virtual > 0; });
 }
 
-/// Looks again at a tile with virtual surfaces: its edges and textures need more camera rays than
-/// its light does. A kind of surface that only these rays meet gets light samples too.
-void refine_coverage(const TilePass& pass) {
+/// Looks again at a tile with virtual surfaces: their edges and textures need more camera rays than
+/// the light on real surfaces does, and their light is sampled where some of these rays meet them.
+/// A kind of surface that only the other rays meet gets light samples too.
+void refine(const TilePass& pass) {
     const SamplingSettings& settings = pass.settings;
+    const int lit = settings.primary * settings.virtual_repeats;
     Landings missed_real, missed_virtual;  // both kinds may be missed in one pixel
-    for (int p = settings.primary; p < settings.coverage; ++p) {
+    for (int p = settings.primary; p < std::max(settings.coverage, lit); ++p) {
         const Landings landings = pass.land_at(p);
         pass.for_each_lane([&](std::size_t lane, PixelSums& sums) {
             const Landing& landing = landings[lane];
-            look(landing, sums);
+            if (p < settings.coverage) look(landing, sums);
             if (landing.kind == LandingKind::nothing) return;
-            if (receiver_of(sums, landing.kind).hits > 0) return;
-            receive(landing, sums);
-            (landing.kind == LandingKind::real ? missed_real : missed_virtual)[lane] = landing;
+            const bool is_virtual = landing.kind == LandingKind::on_virtual;
+            if (is_virtual && p < lit) {
+                receive(landing, sums);
+            } else if (receiver_of(sums, landing.kind).hits == 0) {
+                receive(landing, sums);
+                (is_virtual ? missed_virtual : missed_real)[lane] = landing;
+            }
         });
+        if (p >= lit) continue;
+        const Landings on_virtual = only(LandingKind::on_virtual, landings);
+        if (any_landing(on_virtual)) pass.add_samples(on_virtual, p * settings.secondary);
     }
     for (const Landings* missed : {&missed_real, &missed_virtual})
-        if (any_landing(*missed)) gather_light(pass, *missed, settings.primary);
+        if (any_landing(*missed)) gather_light(pass, *missed, lit);
 }
 
-void sample_tile(const TwoModeScene& scene, const SamplingSettings& settings, std::uint32_t frame,
-                 Tile& tile) {
-    const TilePass pass{scene, settings, frame, tile};
+void sample_tile(const TilePass& pass) {
+    const SamplingSettings& settings = pass.settings;
     for (int p = 0; p < settings.primary; ++p) {
         const Landings landings = pass.land_at(p);
         pass.for_each_lane([&](std::size_t lane, PixelSums& sums) {
@@ -143,7 +167,7 @@ void sample_tile(const TwoModeScene& scene, const SamplingSettings& settings, st
         });
         gather_light(pass, landings, p);
     }
-    if (settings.coverage > settings.primary && sees_virtual(tile)) refine_coverage(pass);
+    if (sees_virtual(pass.tile)) refine(pass);
 }
 
 void add(RayCounts& sum, const RayCounts& more) {
@@ -158,6 +182,7 @@ void add(RayCounts& sum, const RayCounts& more) {
 
 void validate(const SamplingSettings& s) {
     require(s.virtual_repeats >= 1, "trace.virtual_repeats must be positive", ExitCode::usage);
+    require(s.light_tries >= 1, "trace.light_tries must be positive", ExitCode::usage);
     require(s.coverage >= 0, "trace.coverage must not be negative", ExitCode::usage);
     require(s.primary > 0 && s.secondary > 0, "trace.primary and trace.secondary must be positive",
             ExitCode::usage);
@@ -187,6 +212,8 @@ TwoModeResult sample_two_modes(const TwoModeScene& scene, const SamplingSettings
         const Image<Rgb> black(lens.width, lens.height, Rgb(0));
         result.layers.unshadowed = {black, settings.virtual_seen ? black : Image<Rgb>{}};
     }
+    const LightNets nets = make_light_nets(scene.environment, largest_net_use(scene, settings),
+                                           {settings.seed, frame, 0, 0});
     const int rows = tile_rows(lens);
     std::vector<RayCounts> row_rays{std::size_t(rows)};
     std::vector<std::uint64_t> row_dropped(std::size_t(rows), 0);
@@ -194,7 +221,7 @@ TwoModeResult sample_two_modes(const TwoModeScene& scene, const SamplingSettings
         for (int column = 0; column < tile_columns(lens); ++column) {
             Tile tile;
             tile.area = tile_at(lens, column, row);
-            sample_tile(scene, settings, frame, tile);
+            sample_tile({scene, settings, nets, frame, tile});
             add(row_rays[std::size_t(row)], tile.rays);
             for (int lane = 0; lane < packet_width; ++lane) {
                 if (!tile.area.has(lane)) continue;

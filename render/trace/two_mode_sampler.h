@@ -12,13 +12,23 @@
 
 namespace inlay {
 
+/// How the light on real surfaces is sampled in both modes.
+enum class Estimator {
+    two_mode,   // E_R and E_RV from the same samples (Mehta 2015, ch. 6)
+    difference  // E_RV - E_R from samples of its own, drawn towards virtual geometry; E_R from few
+};
+
 struct SamplingSettings {
+    Estimator estimator = Estimator::two_mode;
     int primary = 4;    // camera rays per pixel
     int secondary = 4;  // light samples per camera ray
     int coverage = 32;  // camera rays per pixel that decide M and k_V where virtual surfaces are
                         // in view; those beyond `primary` gather no light
-    int virtual_repeats = 4;  // light samples on a virtual surface for each one on a real surface,
-                              // where the ratio E_RV / E_R and wide filters hide most of the noise
+    int virtual_repeats = 8;  // camera rays whose light is sampled where they meet virtual
+                              // surfaces, for each one on real surfaces: there the ratio E_RV / E_R
+                              // and wide filters hide most of the noise
+    int light_tries = 4;  // difference: directions from the environment per light sample that are
+                          // tried against the bounds of virtual geometry
     std::uint32_t seed = 1;
     float depth_tolerance =
         0.0f;  // share of depth by which real surfaces must be nearer to hide virtual ones

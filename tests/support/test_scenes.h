@@ -161,6 +161,31 @@ inline TwoModeResult sample_scene(const PlacedScene& scene, const EnvironmentSam
                             frame);
 }
 
+/// 576 estimates of the light at the point in the middle of the view, side by side: 16 frames of 36
+/// pixels, few enough that hardly two pixels of a frame share a light net.
+inline NoisyLayers sample_point(const PlacedScene& scene, const EnvironmentSampler& environment,
+                                const Pose& world_from_camera, const SamplingSettings& settings) {
+    constexpr int side = 6, frames = 16;
+    const Lens lens = telescope(side, side);
+    NoisyLayers all = sample_scene(scene, environment, lens, world_from_camera, settings).layers;
+    const auto append_pixels = [](auto& to, const auto& from) {
+        to.pixels.insert(to.pixels.end(), from.pixels.begin(), from.pixels.end());
+        to.height += from.height;
+    };
+    for (std::uint32_t frame = 1; frame < frames; ++frame) {
+        const NoisyLayers more =
+            sample_scene(scene, environment, lens, world_from_camera, settings, frame).layers;
+        append_pixels(all.m, more.m);
+        append_pixels(all.k_v, more.k_v);
+        append_pixels(all.s_rv, more.s_rv);
+        for (Irradiance NoisyLayers::*light : {&NoisyLayers::direct, &NoisyLayers::indirect})
+            for (Image<Rgb> Irradiance::*layer :
+                 {&Irradiance::e_r, &Irradiance::e_rv_real, &Irradiance::e_rv_virtual})
+                append_pixels(all.*light.*layer, more.*light.*layer);
+    }
+    return all;
+}
+
 /// Radiance of one path per lane along the same ray; lanes differ in their random numbers.
 inline RadiancePacket paths_along(const EmbreeScene& scene, const EnvironmentSampler& environment,
                                   const glm::vec3& origin, const glm::vec3& direction,

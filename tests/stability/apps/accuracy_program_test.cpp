@@ -93,9 +93,9 @@ TEST(Accuracy, WritesFiguresAgainstBothReferencesAPageAndASummary) {
         EXPECT_EQ(frame["kept"], kept);
         EXPECT_GT(frame["figures"][0]["allowed"], 0);
     }
-    EXPECT_THAT(file_text(folder / "out/accuracy.html"), HasSubstr("samples=16/axis_aligned"));
+    EXPECT_THAT(file_text(folder / "out/accuracy.html"), HasSubstr("samples=16/difference"));
     EXPECT_THAT(file_text(folder / "out/summary.md"),
-                AllOf(HasSubstr("| ball | Axis-aligned filter |"), HasSubstr("\nBudget: ")));
+                AllOf(HasSubstr("| ball | Difference form |"), HasSubstr("\nBudget: ")));
 }
 
 TEST(Accuracy, PrintsTheBlameTableWithoutAFolder) {

@@ -33,9 +33,8 @@ Pose from_the_side() { return look_at({2, 0.6, 0}, {0, 0, 0}); }
 TEST(TwoModes, AnOpenPlaneUnderAConstantSkyReceivesPi) {
     const PlacedScene scene({mesh_object(floor_mesh(5), Diffuse{Rgb(0.5f)}, true)});
     for (const int samples : {1, 16, 64}) {
-        const NoisyLayers layers = sample_scene(scene, constant_environment(1), point_lens,
-                                                from_the_side(), with_samples({}, samples))
-                                       .layers;
+        const NoisyLayers layers = sample_point(scene, constant_environment(1), from_the_side(),
+                                                with_samples({}, samples));
         EXPECT_TRUE(has_mean(red_of(layers.direct.e_r), pi));
         EXPECT_TRUE(has_mean(red_of(layers.direct.e_rv_real), pi));
         EXPECT_TRUE(has_mean(red_of(layers.indirect.e_r), 0));
@@ -49,9 +48,8 @@ TEST(TwoModes, AVirtualSphereTakesItsFormFactorAndReturnsItsAlbedo) {
     for (const float albedo : {0.0f, 0.7f, 1.0f}) {
         const PlacedScene scene(
             {real_patch(), sphere_object({0, height, 0}, float(radius), Diffuse{Rgb(albedo)})});
-        const NoisyLayers layers = sample_scene(scene, constant_environment(1), point_lens,
-                                                from_the_side(), with_samples({}, 64))
-                                       .layers;
+        const NoisyLayers layers =
+            sample_point(scene, constant_environment(1), from_the_side(), with_samples({}, 64));
         EXPECT_TRUE(has_mean(red_of(layers.direct.e_r), pi));
         EXPECT_TRUE(has_mean(red_of(layers.direct.e_rv_real), pi * (1 - covered)));
         EXPECT_TRUE(has_mean(red_of(layers.indirect.e_r), 0));
@@ -63,8 +61,7 @@ TEST(TwoModes, AHalfDomeGivesPiFromAboveAndHalfOfItFromTheSide) {
     const EnvironmentSampler sky = half_environment(1, 0);
     const auto mean_under_the_sky = [&](TriangleMesh mesh, const glm::dvec3& eye) {
         const PlacedScene scene({mesh_object(std::move(mesh), Diffuse{Rgb(0.5f)}, true)});
-        return red_of(
-            sample_scene(scene, sky, point_lens, look_at(eye, {0, 0, 0}), {}).layers.direct.e_r);
+        return red_of(sample_point(scene, sky, look_at(eye, {0, 0, 0}), {}).direct.e_r);
     };
     EXPECT_TRUE(has_mean(mean_under_the_sky(floor_mesh(1), {1, 1, 0}), pi));
     EXPECT_TRUE(
@@ -85,9 +82,8 @@ RunningMean virtual_radiance(const NoisyLayers& layers) {
 TEST(TwoModes, AVirtualSphereAloneInAFurnaceShowsItsAlbedo) {
     for (const float albedo : {0.3f, 1.0f}) {
         const PlacedScene scene({sphere_object({0, 0, 0}, 0.5f, Diffuse{Rgb(albedo)})});
-        const NoisyLayers layers = sample_scene(scene, constant_environment(1), point_lens,
-                                                look_at({0, 0, 3}, {0, 0.2, 0}), {})
-                                       .layers;
+        const NoisyLayers layers =
+            sample_point(scene, constant_environment(1), look_at({0, 0, 3}, {0, 0.2, 0}), {});
         EXPECT_TRUE(has_mean(virtual_radiance(layers), albedo));
     }
 }
@@ -107,8 +103,7 @@ TEST(TwoModes, AGlossyPlaneInAFurnaceShowsItsDirectionalAlbedo) {
         const PlacedScene scene({mesh_object(floor_mesh(10), c.material)});
         const double theta = c.theta_deg * pi / 180;
         const Pose view = look_at({0, std::cos(theta), std::sin(theta)}, {0, 0, 0}, {1, 0, 0});
-        EXPECT_TRUE(has_mean(
-            virtual_radiance(sample_scene(scene, furnace, point_lens, view, {}).layers), c.albedo));
+        EXPECT_TRUE(has_mean(virtual_radiance(sample_point(scene, furnace, view, {})), c.albedo));
 
         RunningMean one_pixel;
         for (std::uint32_t frame = 0; frame < 500; ++frame)

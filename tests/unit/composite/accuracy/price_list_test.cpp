@@ -78,7 +78,7 @@ std::vector<Cell> a_filter_and_monte_carlo() {
     std::vector<Cell> cells;
     for (const PricedPoint& p : monte_carlo())
         cells.push_back(cell("unfiltered", p.samples, p.ms, p.error));
-    cells.push_back(cell("axis_aligned", 16, 18, 0.125));
+    cells.push_back(cell("difference", 16, 18, 0.125));
     return cells;
 }
 
@@ -104,7 +104,7 @@ TEST(PriceList, LeavesOutWhatFailedOrHasNoInfluencedPixel) {
     cells[1].failed = "out of luck";
     cells[2].converged->rmse_influenced.reset();
     EXPECT_EQ(price_list(cells).rmse_front,
-              (std::vector<std::string>{"1unfiltered", "16axis_aligned"}));
+              (std::vector<std::string>{"1unfiltered", "16difference"}));
     EXPECT_TRUE(price_list({}).rmse_front.empty());
 }
 

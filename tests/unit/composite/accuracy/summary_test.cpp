@@ -39,7 +39,7 @@ AccuracyReport report() {
     for (const int samples : {4, 16, 64, 256}) {
         const double noise = 0.08 / std::sqrt(samples);
         work.cells.push_back(cell("unfiltered", samples, noise, samples));
-        work.cells.push_back(cell("axis_aligned", samples, noise / 4, samples + 4));
+        work.cells.push_back(cell("difference", samples, noise / 4, samples + 4));
     }
     r.works.push_back(work);
     return r;
@@ -51,9 +51,9 @@ TEST(Summary, SaysWhatWasMeasuredWhenAndWhere) {
     EXPECT_THAT(text, HasSubstr("## desk"));
     EXPECT_THAT(text, HasSubstr("frames 5, 11"));
     // 16 samples filtered have a quarter of the noise, as 16 times the samples have
-    EXPECT_THAT(text, HasSubstr("| desk | Axis-aligned filter | 0.0050 | 20.0 | 256.0 | 256 | "
+    EXPECT_THAT(text, HasSubstr("| desk | Difference form | 0.0050 | 20.0 | 256.0 | 256 | "
                                 "12.8 | 1.00 |\n"));
-    EXPECT_THAT(text, HasSubstr("| desk | Axis-aligned filter | 0.0100 at 4, 0.0050 at 16, "
+    EXPECT_THAT(text, HasSubstr("| desk | Difference form | 0.0100 at 4, 0.0050 at 16, "
                                 "0.0025 at 64, 0.0013 at 256 | -0.50 |\n"));
 }
 
@@ -78,7 +78,7 @@ TEST(Summary, HasBlameAndFailures) {
     const std::string text = summary_text(r);
     EXPECT_THAT(text, HasSubstr("| desk | 5 | 0.0300 | 0.2000 | - | geometry | -1 % | 75 % | -1 % "
                                 "| -1 % | -1 % |\n"));
-    EXPECT_THAT(text, HasSubstr("- failed: samples=256/axis_aligned: it was too dark\n"));
+    EXPECT_THAT(text, HasSubstr("- failed: samples=256/difference: it was too dark\n"));
 }
 
 TEST(Summary, PutsBudgetsBesideErrors) {
@@ -103,7 +103,7 @@ TEST(Summary, PutsBudgetsBesideErrors) {
 TEST(Summary, SaysWhichRepeatFailed) {
     AccuracyReport r = report();
     r.works[0].cells.back().failed_repeats = {{2, "it was too dark"}};
-    EXPECT_THAT(summary_text(r), HasSubstr("- failed in repeat 3: samples=256/axis_aligned: it was "
+    EXPECT_THAT(summary_text(r), HasSubstr("- failed in repeat 3: samples=256/difference: it was "
                                            "too dark\n"));
 }
 

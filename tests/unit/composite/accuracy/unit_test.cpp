@@ -32,7 +32,7 @@ UnitRun measured() {
                   {&picky, false, 0},
                   {&picky, true, 0},
                   {&method_named("axis_aligned"), true, 0}};
-    return measure_unit(work, judge_frames(work, {0}, {plan.settings}, 8), plan);
+    return measure_unit(work, judge_frames(work, {0}, {plan.settings}, 128), plan);
 }
 
 TEST(MeasureUnit, GoesOnAfterAMethodThatFails) {

@@ -178,7 +178,7 @@ TEST(EffectPlan, ExplainsEveryEffectAndEveryPass) {
     for (const PlannedEffect& e : plan.effects)
         EXPECT_THAT(text, HasSubstr((e.in ? "in   " : "out  ") + e.name + ": "));
     for (const char* pass : {"direct light: 16", "camera rays: 4", "coverage rays: 28",
-                             "glossy lobes: 64", "smoothing of layers: 7"})
+                             "glossy lobes: 128", "smoothing of layers: 7"})
         EXPECT_THAT(text, HasSubstr(std::string("pass ") + pass));
     EXPECT_THAT(text, HasSubstr("object ball: glossy, may be in view, up to "));
     EXPECT_THAT(explain(plan_of(VirtualScene{})), Not(HasSubstr("pass ")));

@@ -74,7 +74,7 @@ TwoModeResult sample(const VirtualScene& objects, bool as_planned) {
     EmbreeSceneCache cache;
     const EmbreeScene real = cache.place(scene, 0, true), on_top = cache.place(scene, 0, false);
     const SceneView view{scene, environment, lens, test::camera_around(0)};
-    SamplingSettings settings = with_samples({}, 4);
+    SamplingSettings settings = with_samples({.estimator = Estimator::difference}, 4);
     if (as_planned)
         settings = planned_sampling(plan_effects(facts_of_view(view), settings, {}), settings);
     return sample_two_modes(

@@ -138,10 +138,10 @@ TEST(TwoModeSampler, CoverageRaysSharpenEdgesAndLeaveTheRestAlone) {
 TEST(TwoModeSampler, RefusesSettingsOutOfRange) {
     EXPECT_NO_THROW(validate(SamplingSettings{}));
     for (const SamplingSettings& bad :
-         {SamplingSettings{0, 4}, SamplingSettings{4, 0}, SamplingSettings{4, 4, -1},
-          SamplingSettings{4, 4, 0, 0},
-          SamplingSettings{4, 4, 0, 1, 1, -0.1f}, SamplingSettings{4, 4, 0, 1, 1, 0, 2},
-          SamplingSettings{4, 4, 0, 1, 1, 0, 0.02f, NAN}}) {
+         {SamplingSettings{.primary = 0}, SamplingSettings{.secondary = 0},
+          SamplingSettings{.coverage = -1}, SamplingSettings{.virtual_repeats = 0},
+          SamplingSettings{.light_tries = 0}, SamplingSettings{.depth_tolerance = -0.1f},
+          SamplingSettings{.occluder_floor = 2}, SamplingSettings{.ignored_luminance = NAN}}) {
         try {
             validate(bad);
             FAIL();

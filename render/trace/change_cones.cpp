@@ -1,0 +1,87 @@
+#include "render/trace/change_cones.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace inlay {
+namespace {
+
+constexpr float pi = std::numbers::pi_v<float>;
+
+/// Spheres count as this much larger, so that rounding leaves no direction out.
+constexpr float rounding_margin = 1 + 1e-4f;
+
+/// Largest cosine to the normal within a cone whose axis has the cosine `c`, half angle < 90
+/// degrees.
+float largest_cosine(float c, float height) {
+    const float inner = 1 - height;
+    if (c >= inner) return 1;
+    const auto sine = [](float cosine) { return std::sqrt(std::max(0.0f, 1 - cosine * cosine)); };
+    return std::max(0.0f, c * inner + sine(c) * sine(inner));
+}
+
+}  // namespace
+
+void find_cones(std::span<const BoundingSphere> spheres, const glm::vec3& position,
+                const glm::vec3& normal, ChangeCones& cones) {
+    cones.count = 0;
+    float sum = 0;
+    for (const BoundingSphere& sphere : spheres) {
+        if (cones.count == most_change_cones) break;
+        const auto i = std::size_t(cones.count);
+        const glm::vec3 to_centre = sphere.centre - position;
+        const float radius = sphere.radius * rounding_margin;
+        const float above = glm::dot(normal, to_centre);
+        if (!(above + radius > 0)) continue;
+        const float distance = glm::length(to_centre);
+        float cosine = 1;
+        if (radius < distance) {
+            const float sine = radius / distance;
+            cones.axis[i] = to_centre / distance;
+            cones.height[i] = sine * sine / (1 + std::sqrt((1 - sine) * (1 + sine)));
+            cosine = largest_cosine(above / distance, cones.height[i]);
+        } else {
+            cones.axis[i] = normal;
+            cones.height[i] = 1;
+        }
+        const float weight = cones.height[i] * cosine;
+        if (!(weight > 0)) continue;
+        cones.below[i] = sum;
+        cones.density[i] = cosine;
+        sum += weight;
+        ++cones.count;
+    }
+    cones.fill = std::min(1.0f, 2 * sum);
+    for (std::size_t i = 0; i < std::size_t(cones.count); ++i) {
+        cones.below[i] /= sum;
+        cones.density[i] /= 2 * pi * sum;
+    }
+}
+
+DirectionSample sample_cones(const ChangeCones& cones, glm::vec2 u) {
+    if (cones.count == 0) return {};
+    const auto end = cones.below.begin() + cones.count;
+    const auto i =
+        std::size_t(std::upper_bound(cones.below.begin(), end, u.x) - cones.below.begin() - 1);
+    const float next = int(i) + 1 < cones.count ? cones.below[i + 1] : 1.0f;
+    const float within = std::clamp((u.x - cones.below[i]) / (next - cones.below[i]), 0.0f, 1.0f);
+    const float down = within * cones.height[i];  // 1 - cosine
+    const float sine = std::sqrt(std::max(0.0f, down * (2 - down)));
+    const float around = 2 * pi * u.y;
+    const glm::vec3 local{sine * std::cos(around), sine * std::sin(around), 1 - down};
+    const glm::vec3 direction = glm::normalize(basis_about(cones.axis[i]) * local);
+    return {direction, pdf_cones(cones, direction)};
+}
+
+float pdf_cones(const ChangeCones& cones, const glm::vec3& direction) {
+    float density = 0;
+    for (std::size_t i = 0; i < std::size_t(cones.count); ++i) {
+        // 1 - cosine as half the squared distance of unit vectors: exact for narrow cones
+        const glm::vec3 apart = direction - cones.axis[i];
+        if (0.5f * glm::dot(apart, apart) <= cones.height[i]) density += cones.density[i];
+    }
+    return density;
+}
+
+}  // namespace inlay

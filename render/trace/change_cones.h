@@ -1,0 +1,41 @@
+// ChangeCones: the directions in which virtual geometry can be seen from a surface, and nothing
+// else can change the light it receives.
+#pragma once
+
+#include "render/sample/warp.h"
+#include "render/trace/bounding_spheres.h"
+
+#include <array>
+#include <span>
+
+namespace inlay {
+
+/// Spheres that virtual geometry is held in, at most.
+inline constexpr int most_change_cones = 64;
+
+/// Circular cones about the bounding spheres above a surface's horizon, each sampled evenly in
+/// solid angle and chosen in proportion to its solid angle times its largest cosine. Where a sphere
+/// holds the point or touches it, its cone is the hemisphere.
+struct ChangeCones {
+    int count = 0;
+    float fill = 0;  // bound of the share of an even sky's irradiance that comes from them, 0..1
+    std::array<glm::vec3, most_change_cones> axis;  // unit
+    std::array<float, most_change_cones> height;    // 1 - cosine of the half angle, 0..1
+    std::array<float, most_change_cones> density;   // per steradian, of all samples together
+    std::array<float, most_change_cones> below;     // share of the samples in the cones before
+};
+
+/// Sets the cones of `spheres` (at most most_change_cones; the others are left out) as seen from
+/// `position` on a surface with the unit normal `normal`. Spheres below the horizon, and those that
+/// are points seen from afar, have none.
+void find_cones(std::span<const BoundingSphere> spheres, const glm::vec3& position,
+                const glm::vec3& normal, ChangeCones& cones);
+
+/// A direction for `u` in [0, 1) x [0, 1); pdf 0 without cones. It may lie below the horizon.
+DirectionSample sample_cones(const ChangeCones& cones, glm::vec2 u);
+
+/// Density (per steradian) with which sample_cones returns a unit direction: a sum over the cones
+/// that hold it.
+float pdf_cones(const ChangeCones& cones, const glm::vec3& direction);
+
+}  // namespace inlay

@@ -1,0 +1,300 @@
+// Rays that look for a change wait until 16 of them, of any pixels of the tile, make a packet.
+#include "render/trace/change_estimator.h"
+
+#include "render/trace/bounce.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace inlay {
+namespace {
+
+constexpr float pi = std::numbers::pi_v<float>;
+
+bool is_real(const Landing& landing) { return landing.kind == LandingKind::real; }
+
+/// A direction from one of the tile's landings.
+struct Try {
+    std::size_t lane = 0;
+    std::uint32_t number = 0;  // among those of the pixel
+    glm::vec3 direction{0.0f};
+    Rgb light{0};         // irradiance (cos / p weighted) that the environment sends from there
+    float weight = 0;     // cos / p of radiance that surfaces send from there; 0: not asked
+    bool bright = false;  // enough light to narrow the filter
+    SurfaceHit on_virtual;
+};
+
+/// A packet that fills up.
+struct Tries {
+    std::array<Try, packet_width> tries;
+    int count = 0;
+
+    void add(const Try& t) { tries[std::size_t(count++)] = t; }
+    bool full() const { return count == packet_width; }
+};
+
+/// What the tries of one camera ray of each pixel share.
+struct Search {
+    Search(const ChangePass& c) : change(c), pass(c.pass) {}  // the arrays are filled later
+
+    const ChangePass& change;
+    SamplePass& pass;
+    std::array<ChangeCones, packet_width> cones;
+    std::array<std::uint32_t, packet_width> first_net;
+    std::array<float, packet_width> by_cones;  // tries over the cones, on average
+    Tries waiting;                             // for a packet against virtual geometry
+    Tries met;  // virtual geometry; waiting for one against real geometry
+};
+
+RayPair rays_of(const Search& search, const Tries& tries) {
+    RayPair rays;
+    for (int k = 0; k < tries.count; ++k) {
+        const Try& t = tries.tries[std::size_t(k)];
+        rays.set(k, search.pass.landings[t.lane], t.direction, search.pass.scene.real.offset);
+    }
+    return rays;
+}
+
+void narrow(const Search& search, const Try& t) {
+    const float rate = occluder_rate(search.pass.landings[t.lane], t.direction,
+                                     t.on_virtual.distance, search.pass.settings);
+    ChangeSums& sums = search.pass.sums[t.lane].change;
+    widen(sums.rate_indirect, rate);
+    if (t.bright) widen(sums.rate_direct, rate);
+}
+
+/// Light that virtual surfaces keep away, unless real ones do already.
+void take_shadows(Search& search) {
+    const RayPacket rays = rays_of(search, search.met).against_real;
+    const std::uint32_t behind_real = search.pass.scene.real.occluded(rays);
+    search.pass.rays.real_shadow += count(rays);
+    for (int k = 0; k < search.met.count; ++k) {
+        const Try& t = search.met.tries[std::size_t(k)];
+        narrow(search, t);
+        if (!((behind_real >> k) & 1U))
+            search.pass.sums[t.lane].change.add(&ChangeSums::direct, -t.light);
+    }
+    search.met.count = 0;
+}
+
+/// The same, and the radiance of virtual surfaces in the place of real ones.
+void exchange_surfaces(Search& search) {
+    const RayPair rays = rays_of(search, search.met);
+    SampleKeys keys = search.pass.keys;
+    std::uint32_t nearest = 0;
+    HitPacket hits;
+    for (int k = 0; k < search.met.count; ++k) {
+        const Try& t = search.met.tries[std::size_t(k)];
+        keys[std::size_t(k)] = search.pass.keys[t.lane];
+        keys[std::size_t(k)].sample = t.number;
+        hits[std::size_t(k)] = t.on_virtual;
+    }
+    const RealHits behind = search.pass.scene.real.radiances(rays.against_real, keys);
+    search.pass.rays.real_indirect += count(rays.against_real);
+    for (int k = 0; k < search.met.count; ++k)
+        if (hits[std::size_t(k)].distance <= behind.distance[std::size_t(k)]) nearest |= 1U << k;
+    SamplePass mixed{search.pass.scene, search.pass.settings, search.pass.landings, keys,
+                     search.pass.sums,  search.pass.rays,     search.pass.nets};
+    const RadiancePacket sent = shade_virtual_hits(mixed, rays.against_virtual, hits, nearest);
+    for (int k = 0; k < search.met.count; ++k) {
+        const Try& t = search.met.tries[std::size_t(k)];
+        if (!((nearest >> k) & 1U)) continue;
+        const auto i = std::size_t(k);
+        const bool open = behind.distance[i] == no_hit;
+        narrow(search, t);
+        ChangeSums& sums = search.pass.sums[t.lane].change;
+        if (open) sums.add(&ChangeSums::direct, -t.light);
+        sums.add(&ChangeSums::indirect, t.weight * (open ? sent[i] : sent[i] - behind.radiance[i]));
+    }
+    search.met.count = 0;
+}
+
+/// What becomes of tries that meet virtual geometry, and the class of rays that looks for it.
+struct Follow {
+    void (*step)(Search&);
+    std::uint64_t RayCounts::*virtual_rays;
+};
+constexpr Follow shadows{take_shadows, &RayCounts::virtual_shadow};
+constexpr Follow surfaces{exchange_surfaces, &RayCounts::virtual_indirect};
+
+void look_for_virtual(Search& search, const Follow& follow) {
+    const RayPacket rays = rays_of(search, search.waiting).against_virtual;
+    const HitPacket hits = search.pass.scene.virtual_objects.intersect(rays);
+    search.pass.rays.*follow.virtual_rays += count(rays);
+    for (int k = 0; k < search.waiting.count; ++k) {
+        if (!hits[std::size_t(k)].hit()) continue;
+        Try t = search.waiting.tries[std::size_t(k)];
+        t.on_virtual = hits[std::size_t(k)];
+        search.met.add(t);
+        if (search.met.full()) follow.step(search);
+    }
+    search.waiting.count = 0;
+}
+
+/// Follows a try that has a direction above the surface, once a packet is full.
+void follow_try(Search& search, const Try& t, const Follow& follow) {
+    if (!(glm::dot(search.pass.landings[t.lane].normal, t.direction) > 0)) return;
+    search.waiting.add(t);
+    if (search.waiting.full()) look_for_virtual(search, follow);
+}
+
+/// The packets that are not full.
+void follow_rest(Search& search, const Follow& follow) {
+    if (search.waiting.count > 0) look_for_virtual(search, follow);
+    if (search.met.count > 0) follow.step(search);
+}
+
+bool is_bright(const SamplePass& pass, const Rgb& radiance) {
+    return luminance(radiance) >=
+           pass.settings.ignored_luminance * pass.scene.environment.mean_luminance;
+}
+
+/// Irradiance from a direction, weighted with the density of all tries that may draw it.
+Rgb weighted(const Search& search, std::size_t lane, const LightSample& light, float by_cones) {
+    const float cosine = glm::dot(search.pass.landings[lane].normal, light.direction);
+    return light.radiance * (cosine / (float(search.change.counts.light) * light.pdf +
+                                       search.by_cones[lane] * by_cones));
+}
+
+Try try_light(const Search& search, std::size_t lane, int number) {
+    const LightSample& light = search.pass.nets.at(search.first_net[lane], number);
+    if (!(light.pdf > 0)) return {};
+    const float by_cones = pdf_cones(search.cones[lane], light.direction);
+    if (by_cones == 0) return {};
+    return {lane,
+            std::uint32_t(number),
+            light.direction,
+            weighted(search, lane, light, by_cones),
+            0,
+            is_bright(search.pass, light.radiance),
+            {}};
+}
+
+void try_lights(Search& search) {
+    const int tries = search.change.counts.light;
+    for (int n = 0; n < tries; ++n)
+        for (std::size_t lane = 0; lane < packet_width; ++lane)
+            if (search.cones[lane].count > 0)
+                follow_try(search, try_light(search, lane, search.change.ray * tries + n), shadows);
+    follow_rest(search, shadows);
+}
+
+Try try_cone(const Search& search, std::size_t lane, const SampleKey& key) {
+    const DirectionSample drawn =
+        sample_cones(search.cones[lane], stratified_pair(key, change_by_cones));
+    if (!(drawn.pdf > 0)) return {};
+    const LightSample light = sample_along(search.pass.scene.environment, drawn.direction);
+    const float cosine = glm::dot(search.pass.landings[lane].normal, drawn.direction);
+    return {lane,
+            key.sample,
+            drawn.direction,
+            weighted(search, lane, light, drawn.pdf),
+            cosine / (0.5f * search.by_cones[lane] * drawn.pdf),
+            is_bright(search.pass, light.radiance),
+            {}};
+}
+
+/// One half of the tries over the cones: a random whole number of them with the right mean.
+void try_cones(Search& search, int half, const Follow& follow) {
+    std::array<int, packet_width> tries{};
+    int most = 0;
+    for (std::size_t lane = 0; lane < packet_width; ++lane) {
+        if (search.cones[lane].count == 0) continue;
+        const SampleKey& key = search.pass.keys[lane];
+        tries[lane] =
+            int(0.5f * search.by_cones[lane] + uniform(key, change_by_cones + std::uint32_t(half)));
+        most = std::max(most, tries[lane]);
+    }
+    for (int n = 0; n < most; ++n) {
+        for (std::size_t lane = 0; lane < packet_width; ++lane) {
+            if (n >= tries[lane]) continue;
+            SampleKey key = search.pass.keys[lane];
+            key.sample =
+                std::uint32_t((search.change.ray * search.change.counts.cones + n) * 2 + half);
+            follow_try(search, try_cone(search, lane, key), follow);
+        }
+    }
+    follow_rest(search, follow);
+}
+
+/// Cones that would send this share of an even sky's irradiance, or more, get all tries.
+constexpr float full_fill = 0.1f;
+constexpr float least_share = 1.0f / 16;
+
+}  // namespace
+
+ChangeCounts change_counts(const TwoModeScene& scene, const SamplingSettings& settings) {
+    const bool lit = scene.environment.mean_luminance > 0;
+    return {lit ? settings.light_tries * settings.secondary : 0, settings.secondary};
+}
+
+int real_light_samples(const SamplingSettings& settings) {
+    return std::max(1, settings.secondary / 4);
+}
+
+void add_change(const ChangePass& change) {
+    const SamplePass& pass = change.pass;
+    Search search(change);
+    for (std::size_t i = 0; i < packet_width; ++i) {
+        search.cones[i].count = 0;
+        const Landing& landing = pass.landings[i];
+        if (!is_real(landing)) continue;
+        ++change.pass.sums[i].change.camera_rays;
+        search.first_net[i] = first_net(pass.keys[i], change_by_light);
+        find_cones(pass.scene.virtual_objects.bounds(), landing.position, landing.normal,
+                   search.cones[i]);
+        search.by_cones[i] = float(change.counts.cones) *
+                             std::clamp(search.cones[i].fill / full_fill, least_share, 1.0f);
+    }
+    try_lights(search);
+    try_cones(search, 0, surfaces);
+    if (change.counts.light > 0) try_cones(search, 1, shadows);
+}
+
+void add_real_light(SamplePass& pass) {
+    const EnvironmentSampler& environment = pass.scene.environment;
+    std::array<LightSample, packet_width> lights;
+    RayPair towards_light, bounced;
+    for (int lane = 0; lane < packet_width; ++lane) {
+        const auto i = std::size_t(lane);
+        const Landing& from = pass.landings[i];
+        if (!is_real(from)) continue;
+        lights[i] =
+            pass.nets.at(first_net(pass.keys[i], light_direction), int(pass.keys[i].sample));
+        if (lights[i].pdf > 0 && glm::dot(from.normal, lights[i].direction) > 0)
+            towards_light.set(lane, from, lights[i].direction, pass.scene.real.offset);
+        const glm::vec2 u = stratified_pair(pass.keys[i], diffuse_lobe);
+        bounced.set(lane, from, basis_about(from.normal) * sample_cosine_hemisphere(u).direction,
+                    pass.scene.real.offset);
+    }
+    const DistancePacket shadows = pass.scene.real.distances(towards_light.against_real);
+    const RealHits back = pass.scene.real.radiances(bounced.against_real, pass.keys);
+    pass.rays.real_shadow += count(towards_light.against_real);
+    pass.rays.real_indirect += count(bounced.against_real);
+    for (int lane = 0; lane < packet_width; ++lane) {
+        const auto i = std::size_t(lane);
+        const Landing& from = pass.landings[i];
+        if (!is_real(from)) continue;
+        PixelSums& sums = pass.sums[i];
+        Rgb direct(0), indirect(0);
+        if (towards_light.against_real.has(lane)) {
+            const float cosine = glm::dot(from.normal, lights[i].direction);
+            if (shadows[i] == no_hit)
+                direct = lights[i].radiance * (cosine / lights[i].pdf);
+            else if (luminance(lights[i].radiance) >=
+                     pass.settings.ignored_luminance * environment.mean_luminance)
+                widen(sums.real.occluder_direct,
+                      occluder_rate(from, lights[i].direction, shadows[i], pass.settings));
+        }
+        if (back.distance[i] != no_hit) {
+            indirect = pi * back.radiance[i];
+            widen(sums.real.occluder_indirect,
+                  occluder_rate(from, bounced.against_real.direction[i], back.distance[i],
+                                pass.settings));
+        }
+        sums.direct.add(direct, direct);
+        sums.indirect.add(indirect, indirect);
+    }
+}
+
+}  // namespace inlay
