@@ -1,6 +1,7 @@
 // `inlay info`: what a recording holds, what was assumed, and what is wrong with it.
 #include "apps/inlay/command.h"
 #include "apps/inlay/info_figures.h"
+#include "apps/inlay/info_trajectory.h"
 #include "apps/inlay/options.h"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,7 @@ using Json = nlohmann::ordered_json;
 struct InfoOptions {
     CommonOptions common;
     RecordingOptions recording;
+    std::vector<std::string> trajectories;  // two, or none
 };
 
 std::string lens_text(const Lens& lens) {
@@ -150,6 +152,11 @@ void print_json(const RecordingInfo& info, const InfoFigures& figures) {
 
 int run(const InfoOptions& options) {
     apply(options.common);
+    if (!options.trajectories.empty()) {
+        print_trajectory_errors(options.trajectories[0], options.trajectories[1],
+                                options.common.json);
+        return 0;
+    }
     const Recording recording =
         open_recording(options.recording.path, open_options(options.recording));
     const std::vector<int> frames =
@@ -167,6 +174,10 @@ int run(const InfoOptions& options) {
 std::function<int()> add_info(CLI::App& subcommand) {
     const auto options = std::make_shared<InfoOptions>();
     add_recording_options(subcommand, options->recording);
+    subcommand
+        .add_option("--trajectory", options->trajectories,
+                    "A B: only compare the poses of A with those of B (TUM files)")
+        ->expected(2);
     add_common_options(subcommand, options->common);
     return [options] { return run(*options); };
 }

@@ -3,6 +3,7 @@
 #include "composite/blend/differential.h"
 #include "recordings/base/check.h"
 #include "render/filter/filter_layers.h"
+#include "render/trace/real_light.h"
 
 #include <fmt/format.h>
 
@@ -40,13 +41,16 @@ Image<Rgb> picture(const Judge& judge, const std::set<Stage>& swapped) {
             with_true_room(judge.work, frame,
                            swapped.contains(Stage::poses) ? judge.pose : frame.world_from_camera);
     const bool converged = swapped.contains(Stage::sampling) || swapped.contains(Stage::filter);
-    SampledFrame sampled =
-        sample_frame(judge.work, frame,
-                     converged ? many_samples(judge.settings.trace, judge.converged_samples)
-                               : judge.settings.trace,
-                     std::uint32_t(frame.frame));
+    SamplingSettings sampling = judge.settings.trace;
+    if (converged) sampling = many_samples(sampling, judge.converged_samples);
+    // the filter that is judged is the one that the settings' estimator gets
+    if (!swapped.contains(Stage::filter)) sampling.estimator = judge.settings.trace.estimator;
+    SampledFrame sampled = sample_frame(judge.work, frame, sampling, std::uint32_t(frame.frame));
     NoisyLayers& layers = sampled.result.layers;
     layers.samples = judge.settings.trace.primary * judge.settings.trace.secondary;
+    if (sampled_apart(layers))
+        layers.real_samples =
+            judge.settings.trace.primary * real_light_samples(judge.settings.trace);
     layers.virtual_samples = layers.samples * judge.settings.trace.virtual_repeats;
     FilterSettings filter = judge.settings.filter;
     if (swapped.contains(Stage::filter)) filter.enabled = false;

@@ -85,6 +85,8 @@ Image<Rgb> partial_picture(const Work& work, const TrackedFrame& frame, const Se
     const int samples = settings.trace.primary * settings.trace.secondary;
     SamplingSettings sampling = share_of_samples(settings.trace, std::max(1, samples / parts));
     sampling.seed += estimate_seed_offset + which;
+    // a raw ratio has its right mean only if both modes share their noise
+    if (parts != 2) sampling.estimator = Estimator::two_mode;
     const SampledFrame sampled = sample_frame(work, frame, sampling, std::uint32_t(frame.frame));
     FilterSettings filter = settings.filter;
     filter.enabled = parts == 2;  // the first half is filtered, the quarters are raw

@@ -48,6 +48,7 @@ double unfiltered_flicker(const Work& work, const TrackedFrame& frame, const Set
                           const Mask& influenced) {
     Settings plain = settings;
     plain.filter.enabled = false;
+    plain.trace.estimator = Estimator::two_mode;  // whose noise the budget speaks of
     const auto picture = [&](std::uint32_t seed) {
         return composite(*frame.photo, light_of(work, frame, plain, seed), settings.blend).linear;
     };

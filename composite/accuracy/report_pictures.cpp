@@ -62,6 +62,7 @@ bool is_shown(const Cell& cell) {
 
 /// The samples of one setting, for all the methods that are shown at it.
 struct Shown {
+    Estimator estimator = Estimator::two_mode;
     int primary = 0, secondary = 0;
     SampledFrame now;
     std::optional<SampledFrame> previous;
@@ -73,6 +74,7 @@ Shown sample(const Work& work, const JudgedFrame& frame, const Cell& cell,
     shown.primary = cell.primary;
     shown.secondary = cell.secondary;
     SamplingSettings sampling = settings.trace;
+    shown.estimator = sampling.estimator = method_named(cell.method).estimator;
     sampling.primary = cell.primary;
     sampling.secondary = cell.secondary;
     sampling.unshadowed = true;  // for the methods that ask for it
@@ -103,7 +105,8 @@ std::vector<ReportPicture> report_pictures(const Work& work, const JudgedFrame& 
     std::optional<Shown> shown;
     for (const Cell& cell : cells) {
         if (!is_shown(cell)) continue;
-        if (!shown || shown->primary != cell.primary || shown->secondary != cell.secondary)
+        if (!shown || shown->primary != cell.primary || shown->secondary != cell.secondary ||
+            shown->estimator != method_named(cell.method).estimator)
             shown = sample(work, frame, cell, settings);
         const NoisyLayers* previous =
             cell.temporal && shown->previous ? &shown->previous->result.layers : nullptr;

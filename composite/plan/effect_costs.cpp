@@ -1,6 +1,6 @@
 #include "composite/plan/effect_costs.h"
 
-#include "render/trace/change_estimator.h"
+#include "render/trace/real_light.h"
 
 #include <algorithm>
 

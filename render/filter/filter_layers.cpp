@@ -31,8 +31,8 @@ Receiver completed(const Receiver& receiver, const FilterSettings& settings) {
 }
 
 /// Curvature changes E_R and E_RV alike, so where only their ratio counts it need not bound the
-/// width: the shadow ratio, with E_R as the unshadowed light. The normal stop still bounds what
-/// mixes.
+/// width: the shadow ratio, with E_R as the unshadowed light. Where E_R and the change have widths
+/// of their own, this holds where both are narrow. The normal stop bounds what mixes.
 bool ignores_curvature(Receiver NoisyLayers::*kind, const FilterSettings& settings) {
     return kind == &NoisyLayers::real && !settings.real_curvature &&
            settings.constants == FilterConstants::corrected;
@@ -177,7 +177,8 @@ Image<float> smooth_light(const Frames& frames, const Receivers& receivers,
         return Image<float>(frames.now.lens.width, frames.now.lens.height);
     }
     const auto samples_of = [&](const NoisyLayers& frame) {
-        return &receivers == &frames.real ? frame.samples : samples_on_virtual(frame);
+        return &receivers == &frames.real ? samples_of_real_light(frame)
+                                          : samples_on_virtual(frame);
     };
     LightLimits limits{kind, frames.environment_bandwidth, nullptr, samples_of(frames.now),
                        as_ratio};
@@ -228,9 +229,11 @@ Image<float> smooth_difference(const Frames& frames, LightKind kind, Layers& res
         frames.previous != nullptr ? change_of(*frames.previous, kind) : Image<Rgb>{};
     const std::array<const Image<Rgb>*, 1> images{&now}, images_before{&before};
     const LightLimits limits{kind, frames.environment_bandwidth, nullptr, frames.now.samples};
+    LightLimits limits_before = limits;
+    if (frames.previous != nullptr) limits_before.samples = frames.previous->samples;
     const Smoothed smoothed =
         smooth(frames.change, images, frames.previous != nullptr ? Images(images_before) : Images{},
-               {limits, limits}, frames.settings);
+               {limits, limits_before}, frames.settings);
     const Image<Rgb> change = rgb_of(smoothed.channels, 0);
     for (std::size_t i = 0; i < change.pixels.size(); ++i)
         out.e_rv_real.pixels[i] = glm::max(out.e_r.pixels[i] + change.pixels[i], 0.0f);
@@ -241,7 +244,7 @@ Image<float> smooth_difference(const Frames& frames, LightKind kind, Layers& res
 Image<float> smooth_both(const Frames& frames, LightKind kind, Layers& result) {
     constexpr std::array<Layer, 2> on_real{&Irradiance::e_r, &Irradiance::e_rv_real};
     constexpr std::array<Layer, 1> on_virtual{&Irradiance::e_rv_virtual};
-    const bool apart = !frames.now.change_rates.direct.empty();
+    const bool apart = sampled_apart(frames.now);
     Image<float> real = apart ? smooth_difference(frames, kind, result)
                               : smooth_light(frames, frames.real, on_real, kind, result);
     if (frames.now.k_v.empty()) return real;  // no virtual surface is seen
@@ -300,6 +303,8 @@ Layers filter_layers(const NoisyLayers& now, const NoisyLayers* previous,
         return {now.m, now.k_v, now.s_rv, now.direct, now.indirect, blank, blank};
     if (!settings.temporal) previous = nullptr;
     if (previous != nullptr) require_layer_sizes(*previous);
+    if (previous != nullptr && sampled_apart(*previous) != sampled_apart(now))
+        previous = nullptr;  // its rates say something else
     if (previous != nullptr && open_sky != nullptr) require_unshadowed(*previous);
     Frames frames{now,
                   previous,
@@ -309,8 +314,7 @@ Layers filter_layers(const NoisyLayers& now, const NoisyLayers* previous,
                   prepare(now, previous, &NoisyLayers::real, settings),
                   prepare(now, previous, &NoisyLayers::virtual_, settings),
                   {}};
-    if (!now.change_rates.direct.empty())
-        frames.change = prepare_change(now, previous, frames.real, settings);
+    if (sampled_apart(now)) frames.change = prepare_change(now, previous, frames.real, settings);
     Layers result{now.m, now.k_v, now.s_rv, {}, {}, {}, {}};
     result.bandwidth_direct = smooth_both(frames, LightKind::direct, result);
     result.bandwidth_indirect = smooth_both(frames, LightKind::indirect, result);

@@ -38,6 +38,10 @@ void require_layer_sizes(const NoisyLayers& layers) {
     check(layers, layers.direct);
     check(layers, layers.indirect);
     check(layers, layers.real);
+    if (!layers.change_rates.direct.empty() || !layers.change_rates.indirect.empty()) {
+        require_size(layers, layers.change_rates.direct, "change_rates.direct");
+        require_size(layers, layers.change_rates.indirect, "change_rates.indirect");
+    }
     if (layers.k_v.empty()) return;
     require_size(layers, layers.k_v, "k_v");
     check(layers, layers.virtual_);

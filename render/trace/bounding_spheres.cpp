@@ -2,6 +2,7 @@
 #include "render/trace/bounding_spheres.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <span>
 #include <utility>
@@ -68,6 +69,15 @@ Spheres best_cut(std::span<BoundingSphere> parts, int most) {
     return cost(split) < cost(whole) ? split : whole;
 }
 
+/// Rays meet no triangle with coordinates that are not finite or beyond Embree's largest.
+bool can_be_met(const TriangleMesh& mesh, const glm::uvec3& t) {
+    constexpr float largest = 1.844e18f;
+    for (int corner = 0; corner < 3; ++corner)
+        for (int axis = 0; axis < 3; ++axis)
+            if (!(std::abs(mesh.positions[t[corner]][axis]) < largest)) return false;
+    return true;
+}
+
 BoundingSphere around_triangle(const TriangleMesh& mesh, const glm::uvec3& t) {
     const glm::vec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
     const glm::vec3 centre = 0.5f * (glm::min(a, glm::min(b, c)) + glm::max(a, glm::max(b, c)));
@@ -86,7 +96,7 @@ Spheres enclosing_spheres(const TriangleMesh& mesh, int most) {
     Spheres parts;
     parts.reserve(mesh.triangles.size());
     for (const glm::uvec3& triangle : mesh.triangles)
-        parts.push_back(around_triangle(mesh, triangle));
+        if (can_be_met(mesh, triangle)) parts.push_back(around_triangle(mesh, triangle));
     return enclosing_spheres(std::move(parts), most);
 }
 

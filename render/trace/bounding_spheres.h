@@ -19,7 +19,7 @@ struct BoundingSphere {
 /// one, a table one for each leg. None for no parts.
 std::vector<BoundingSphere> enclosing_spheres(std::vector<BoundingSphere> parts, int most);
 
-/// The same for the triangles of a mesh.
+/// The same for the triangles of a mesh that rays can meet: coordinates finite and below 1.8e18.
 std::vector<BoundingSphere> enclosing_spheres(const TriangleMesh& mesh, int most);
 
 }  // namespace inlay

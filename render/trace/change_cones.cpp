@@ -1,5 +1,7 @@
 #include "render/trace/change_cones.h"
 
+#include "recordings/base/check.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -25,10 +27,10 @@ float largest_cosine(float c, float height) {
 
 void find_cones(std::span<const BoundingSphere> spheres, const glm::vec3& position,
                 const glm::vec3& normal, ChangeCones& cones) {
+    require(spheres.size() <= std::size_t(most_change_cones), "more bounds than change cones");
     cones.count = 0;
     float sum = 0;
     for (const BoundingSphere& sphere : spheres) {
-        if (cones.count == most_change_cones) break;
         const auto i = std::size_t(cones.count);
         const glm::vec3 to_centre = sphere.centre - position;
         const float radius = sphere.radius * rounding_margin;

@@ -25,9 +25,9 @@ struct ChangeCones {
     std::array<float, most_change_cones> below;     // share of the samples in the cones before
 };
 
-/// Sets the cones of `spheres` (at most most_change_cones; the others are left out) as seen from
-/// `position` on a surface with the unit normal `normal`. Spheres below the horizon, and those that
-/// are points seen from afar, have none.
+/// Sets the cones of `spheres` as seen from `position`, where rays start, on a surface with the
+/// unit normal `normal`. Spheres below the horizon, and those that are points seen from afar, have
+/// none. Throws Error for more than most_change_cones of them.
 void find_cones(std::span<const BoundingSphere> spheres, const glm::vec3& position,
                 const glm::vec3& normal, ChangeCones& cones);
 

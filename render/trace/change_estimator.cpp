@@ -4,12 +4,10 @@
 #include "render/trace/bounce.h"
 
 #include <algorithm>
-#include <numbers>
+#include <bit>
 
 namespace inlay {
 namespace {
-
-constexpr float pi = std::numbers::pi_v<float>;
 
 bool is_real(const Landing& landing) { return landing.kind == LandingKind::real; }
 
@@ -35,14 +33,15 @@ struct Tries {
 
 /// What the tries of one camera ray of each pixel share.
 struct Search {
-    Search(const ChangePass& c) : change(c), pass(c.pass) {}  // the arrays are filled later
+    explicit Search(const ChangePass& c) : change(c), pass(c.pass) {}
 
     const ChangePass& change;
     SamplePass& pass;
     std::array<ChangeCones, packet_width> cones;
-    std::array<std::uint32_t, packet_width> first_net;
-    std::array<float, packet_width> by_cones;  // tries over the cones, on average
-    Tries waiting;                             // for a packet against virtual geometry
+    std::array<std::uint32_t, packet_width> first_run{};
+    int run = 1;                                 // length of a pixel's run of light tries
+    std::array<float, packet_width> by_cones{};  // tries over the cones, on average
+    Tries waiting;                               // for a packet against virtual geometry
     Tries met;  // virtual geometry; waiting for one against real geometry
 };
 
@@ -144,11 +143,6 @@ void follow_rest(Search& search, const Follow& follow) {
     if (search.met.count > 0) follow.step(search);
 }
 
-bool is_bright(const SamplePass& pass, const Rgb& radiance) {
-    return luminance(radiance) >=
-           pass.settings.ignored_luminance * pass.scene.environment.mean_luminance;
-}
-
 /// Irradiance from a direction, weighted with the density of all tries that may draw it.
 Rgb weighted(const Search& search, std::size_t lane, const LightSample& light, float by_cones) {
     const float cosine = glm::dot(search.pass.landings[lane].normal, light.direction);
@@ -157,7 +151,7 @@ Rgb weighted(const Search& search, std::size_t lane, const LightSample& light, f
 }
 
 Try try_light(const Search& search, std::size_t lane, int number) {
-    const LightSample& light = search.pass.nets.at(search.first_net[lane], number);
+    const LightSample& light = search.pass.nets.at(search.first_run[lane], search.run, number);
     if (!(light.pdf > 0)) return {};
     const float by_cones = pdf_cones(search.cones[lane], light.direction);
     if (by_cones == 0) return {};
@@ -166,7 +160,7 @@ Try try_light(const Search& search, std::size_t lane, int number) {
             light.direction,
             weighted(search, lane, light, by_cones),
             0,
-            is_bright(search.pass, light.radiance),
+            counts_as_occluded(search.pass, light.radiance),
             {}};
 }
 
@@ -190,12 +184,13 @@ Try try_cone(const Search& search, std::size_t lane, const SampleKey& key) {
             drawn.direction,
             weighted(search, lane, light, drawn.pdf),
             cosine / (0.5f * search.by_cones[lane] * drawn.pdf),
-            is_bright(search.pass, light.radiance),
+            counts_as_occluded(search.pass, light.radiance),
             {}};
 }
 
 /// One half of the tries over the cones: a random whole number of them with the right mean.
 void try_cones(Search& search, int half, const Follow& follow) {
+    const int most_tries = (search.change.counts.cones + 1) / 2;
     std::array<int, packet_width> tries{};
     int most = 0;
     for (std::size_t lane = 0; lane < packet_width; ++lane) {
@@ -209,16 +204,17 @@ void try_cones(Search& search, int half, const Follow& follow) {
         for (std::size_t lane = 0; lane < packet_width; ++lane) {
             if (n >= tries[lane]) continue;
             SampleKey key = search.pass.keys[lane];
-            key.sample =
-                std::uint32_t((search.change.ray * search.change.counts.cones + n) * 2 + half);
+            key.sample = std::uint32_t((search.change.ray * most_tries + n) * 2 + half);
             follow_try(search, try_cone(search, lane, key), follow);
         }
     }
     follow_rest(search, follow);
 }
 
-/// Cones that would send this share of an even sky's irradiance, or more, get all tries.
+/// Cones that would send this share of an even sky's irradiance, or more, get all tries: a change
+/// of a tenth of the light is plainly seen.
 constexpr float full_fill = 0.1f;
+/// Of all tries, at least: one for a pixel of 4 x 4 samples.
 constexpr float least_share = 1.0f / 16;
 
 }  // namespace
@@ -228,73 +224,26 @@ ChangeCounts change_counts(const TwoModeScene& scene, const SamplingSettings& se
     return {lit ? settings.light_tries * settings.secondary : 0, settings.secondary};
 }
 
-int real_light_samples(const SamplingSettings& settings) {
-    return std::max(1, settings.secondary / 4);
-}
-
 void add_change(const ChangePass& change) {
     const SamplePass& pass = change.pass;
     Search search(change);
+    search.run =
+        int(std::bit_ceil(unsigned(std::max(1, pass.settings.primary * change.counts.light))));
     for (std::size_t i = 0; i < packet_width; ++i) {
         search.cones[i].count = 0;
         const Landing& landing = pass.landings[i];
         if (!is_real(landing)) continue;
         ++change.pass.sums[i].change.camera_rays;
-        search.first_net[i] = first_net(pass.keys[i], change_by_light);
-        find_cones(pass.scene.virtual_objects.bounds(), landing.position, landing.normal,
-                   search.cones[i]);
+        search.first_run[i] = first_run(pass.keys[i], change_by_light);
+        const glm::vec3 start =
+            ray_origin(landing.position, landing.geometric_normal, landing.normal, surface_offset);
+        find_cones(pass.scene.virtual_objects.bounds(), start, landing.normal, search.cones[i]);
         search.by_cones[i] = float(change.counts.cones) *
                              std::clamp(search.cones[i].fill / full_fill, least_share, 1.0f);
     }
     try_lights(search);
     try_cones(search, 0, surfaces);
     if (change.counts.light > 0) try_cones(search, 1, shadows);
-}
-
-void add_real_light(SamplePass& pass) {
-    const EnvironmentSampler& environment = pass.scene.environment;
-    std::array<LightSample, packet_width> lights;
-    RayPair towards_light, bounced;
-    for (int lane = 0; lane < packet_width; ++lane) {
-        const auto i = std::size_t(lane);
-        const Landing& from = pass.landings[i];
-        if (!is_real(from)) continue;
-        lights[i] =
-            pass.nets.at(first_net(pass.keys[i], light_direction), int(pass.keys[i].sample));
-        if (lights[i].pdf > 0 && glm::dot(from.normal, lights[i].direction) > 0)
-            towards_light.set(lane, from, lights[i].direction, pass.scene.real.offset);
-        const glm::vec2 u = stratified_pair(pass.keys[i], diffuse_lobe);
-        bounced.set(lane, from, basis_about(from.normal) * sample_cosine_hemisphere(u).direction,
-                    pass.scene.real.offset);
-    }
-    const DistancePacket shadows = pass.scene.real.distances(towards_light.against_real);
-    const RealHits back = pass.scene.real.radiances(bounced.against_real, pass.keys);
-    pass.rays.real_shadow += count(towards_light.against_real);
-    pass.rays.real_indirect += count(bounced.against_real);
-    for (int lane = 0; lane < packet_width; ++lane) {
-        const auto i = std::size_t(lane);
-        const Landing& from = pass.landings[i];
-        if (!is_real(from)) continue;
-        PixelSums& sums = pass.sums[i];
-        Rgb direct(0), indirect(0);
-        if (towards_light.against_real.has(lane)) {
-            const float cosine = glm::dot(from.normal, lights[i].direction);
-            if (shadows[i] == no_hit)
-                direct = lights[i].radiance * (cosine / lights[i].pdf);
-            else if (luminance(lights[i].radiance) >=
-                     pass.settings.ignored_luminance * environment.mean_luminance)
-                widen(sums.real.occluder_direct,
-                      occluder_rate(from, lights[i].direction, shadows[i], pass.settings));
-        }
-        if (back.distance[i] != no_hit) {
-            indirect = pi * back.radiance[i];
-            widen(sums.real.occluder_indirect,
-                  occluder_rate(from, bounced.against_real.direction[i], back.distance[i],
-                                pass.settings));
-        }
-        sums.direct.add(direct, direct);
-        sums.indirect.add(indirect, indirect);
-    }
 }
 
 }  // namespace inlay

@@ -19,9 +19,6 @@ struct ChangeCounts {
 /// if it sends light.
 ChangeCounts change_counts(const TwoModeScene& scene, const SamplingSettings& settings);
 
-/// Samples of E_R per camera ray: a quarter of settings.secondary, and one at least.
-int real_light_samples(const SamplingSettings& settings);
-
 /// The samples of one camera ray of 16 pixels: `ray` counts those of the pixel before it.
 struct ChangePass {
     SamplePass& pass;
@@ -36,8 +33,5 @@ struct ChangePass {
 /// cones changes nothing and is not traced; real geometry is asked only where a ray meets virtual
 /// geometry.
 void add_change(const ChangePass& change);
-
-/// One sample of E_R, direct and indirect, on real surfaces: real geometry alone.
-void add_real_light(SamplePass& pass);
 
 }  // namespace inlay

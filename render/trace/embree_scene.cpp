@@ -1,6 +1,7 @@
 #include "render/trace/embree_scene.h"
 
 #include "recordings/base/check.h"
+#include "render/trace/change_cones.h"
 
 #include <embree3/rtcore.h>
 
@@ -17,16 +18,19 @@ namespace {
 constexpr const char* device_settings = "isa=avx2";
 
 constexpr int spheres_per_mesh = 16;
-constexpr int spheres_per_scene = 64;
+constexpr int spheres_per_scene = most_change_cones;
 
-/// No axis of a transform stretches more than the root of the sum of their squares.
+/// The square of a transform's largest stretch is an eigenvalue of its Gram matrix, at most the
+/// largest sum of a row (Gershgorin).
 BoundingSphere in_world(const BoundingSphere& sphere, const glm::mat4& world_from_local) {
-    const glm::mat3 linear(world_from_local);
-    const float x = glm::length(linear[0]), y = glm::length(linear[1]), z = glm::length(linear[2]);
-    const bool is_similarity = std::max({x, y, z}) <= 1.0001f * std::min({x, y, z});
-    const float stretch =
-        is_similarity ? std::max({x, y, z}) * 1.0001f : std::sqrt(x * x + y * y + z * z);
-    return {glm::vec3(world_from_local * glm::vec4(sphere.centre, 1)), sphere.radius * stretch};
+    const glm::mat3 linear(world_from_local), gram = glm::transpose(linear) * linear;
+    float square = 0;
+    for (int row = 0; row < 3; ++row)
+        square =
+            std::max(square, std::abs(gram[row].x) + std::abs(gram[row].y) + std::abs(gram[row].z));
+    constexpr float rounding_margin = 1 + 1e-5f;
+    return {glm::vec3(world_from_local * glm::vec4(sphere.centre, 1)),
+            sphere.radius * std::sqrt(square) * rounding_margin};
 }
 
 [[noreturn]] void refuse(const std::string& what) {

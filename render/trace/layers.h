@@ -52,7 +52,8 @@ struct ChangeRates {
 struct NoisyLayers {
     Lens lens;
     Pose world_from_camera;
-    int samples = 0;          // per pixel in all: primary x secondary
+    int samples = 0;       // per pixel in all: primary x secondary
+    int real_samples = 0;  // those of E_R where the change is sampled for itself; 0: as `samples`
     int virtual_samples = 0;  // the same where virtual surfaces receive; 0: as `samples`
     Image<float> m;           // M: share of all camera rays that met real surfaces or nothing, 0..1
     Image<Rgb> k_v;   // k_V: mean albedo / pi over the samples on virtual surfaces; empty, as all
@@ -62,11 +63,19 @@ struct NoisyLayers {
     Image<float> glossy_bandwidth;  // B_rho (1/rad) of the glossy lobe, 0: no glossy surface here
     Irradiance direct, indirect;
     ChangeRates change_rates;
-    Receiver real;                      // R and RV together: the larger cos/r of both modes
+    Receiver real;                      // cos/r: the larger of both modes; R alone if sampled apart
     Receiver virtual_;                  // real geometry counts as occluder too
     std::uint64_t dropped_samples = 0;  // non-finite ones, left out of every mean
     Unshadowed unshadowed;              // empty unless asked for
 };
+
+/// Whether E_RV - E_R was sampled for itself.
+inline bool sampled_apart(const NoisyLayers& layers) { return !layers.change_rates.direct.empty(); }
+
+/// Light samples per pixel of E_R.
+inline int samples_of_real_light(const NoisyLayers& layers) {
+    return layers.real_samples > 0 ? layers.real_samples : layers.samples;
+}
 
 /// Light samples per pixel that virtual surfaces got.
 inline int samples_on_virtual(const NoisyLayers& layers) {

@@ -22,8 +22,7 @@ struct ShadowRay {
 /// Adds one environment sample to a pixel, in both modes. An untraced one counts as 0.
 void add_light_sample(const SamplePass& pass, const Landing& from, const LightSample& light,
                       const ShadowRay& shadow, PixelSums& sums) {
-    const float ignored = pass.settings.ignored_luminance * pass.scene.environment.mean_luminance;
-    if (shadow.distance() != no_hit && luminance(light.radiance) >= ignored)
+    if (shadow.distance() != no_hit && counts_as_occluded(pass, light.radiance))
         widen(receiver_of(sums, from.kind).occluder_direct,
               occluder_rate(from, light.direction, shadow.distance(), pass.settings));
     Rgb unshadowed(0), real_only(0), with_virtual(0), glossy(0);
@@ -56,8 +55,8 @@ void add_direct(SamplePass& pass) {
         const auto i = std::size_t(lane);
         const Landing& from = pass.landings[i];
         if (from.kind == LandingKind::nothing) continue;
-        const SampleKey& key = pass.keys[i];
-        lights[i] = pass.nets.at(first_net(key, light_direction), int(key.sample));
+        lights[i] = light_sample(pass, pass.keys[i], light_direction,
+                                 light_samples_on(from.kind, pass.settings));
         if (lights[i].pdf > 0 && glm::dot(from.normal, lights[i].direction) > 0)
             rays.set(lane, from, lights[i].direction, pass.scene.real.offset);
     }

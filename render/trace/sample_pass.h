@@ -8,6 +8,7 @@
 #include "render/trace/two_mode_sampler.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace inlay {
 
@@ -26,11 +27,6 @@ enum SampleDimension : std::uint32_t {
     first_path_dimension = 64  // of the path tracer behind exact real geometry
 };
 
-/// The light net that a pixel's samples begin with; estimators of a pixel differ in `dimension`.
-inline std::uint32_t first_net(const SampleKey& key, std::uint32_t dimension) {
-    return hash(hash(key.pixel, hash(key.frame, key.seed)), dimension);
-}
-
 struct SamplePass {
     const TwoModeScene& scene;
     const SamplingSettings& settings;
@@ -40,6 +36,29 @@ struct SamplePass {
     RayCounts& rays;
     const LightNets& nets;  // the frame's environment samples
 };
+
+/// Environment samples that a pixel takes on one kind of surface, if both modes share them.
+inline int light_samples_on(LandingKind kind, const SamplingSettings& s) {
+    return s.primary * s.secondary * (kind == LandingKind::on_virtual ? s.virtual_repeats : 1);
+}
+
+/// The run of the frame's light nets in which a pixel's samples begin.
+inline std::uint32_t first_run(const SampleKey& key, std::uint32_t dimension) {
+    return hash(hash(key.pixel, hash(key.frame, key.seed)), dimension);
+}
+
+/// Sample `key.sample` of the `count` environment samples that a pixel takes for one purpose.
+inline const LightSample& light_sample(const SamplePass& pass, const SampleKey& key,
+                                       std::uint32_t dimension, int count) {
+    return pass.nets.at(first_run(key, dimension), int(std::bit_ceil(unsigned(count))),
+                        int(key.sample));
+}
+
+/// Whether light is bright enough for what blocks it to narrow the filter.
+inline bool counts_as_occluded(const SamplePass& pass, const Rgb& radiance) {
+    return luminance(radiance) >=
+           pass.settings.ignored_luminance * pass.scene.environment.mean_luminance;
+}
 
 /// The sums of the kind of surface that a sample landed on.
 inline ReceiverSums& receiver_of(PixelSums& sums, LandingKind kind) {

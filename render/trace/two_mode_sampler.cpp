@@ -5,6 +5,7 @@
 #include "render/trace/change_estimator.h"
 #include "render/trace/light_estimators.h"
 #include "render/trace/pixel_tile.h"
+#include "render/trace/real_light.h"
 
 #include <algorithm>
 #include <bit>
@@ -86,7 +87,8 @@ struct TilePass {
         for (int s = 0; s < of_real; ++s) {
             SamplePass of_light{scene,     settings,  landings, keys(ray * of_real + s),
                                 tile.sums, tile.rays, nets};
-            add_real_light(of_light);
+            add_real_direct(of_light);
+            add_real_indirect(of_light);
         }
     }
 

@@ -18,23 +18,25 @@ std::vector<SceneObject> busy_scene() {
             sphere_object({0, 0.2, 0.6}, 0.2f, Ggx{Rgb(0.9f), glm::vec2(0.4f), 0, nullptr})};
 }
 
-TwoModeResult layers_with(int threads) {
+TwoModeResult layers_with(int threads, Estimator estimator) {
     set_thread_count(threads);
-    TwoModeResult result =
-        sample_scene(PlacedScene(busy_scene()), environment_of(hot_pixel_map(9, 4, 300, 0.5f)),
-                     lens_of(50, 37, 50), look_at({0, 1, 2.5}, {0, 0.3, 0}), {});
+    TwoModeResult result = sample_scene(
+        PlacedScene(busy_scene()), environment_of(hot_pixel_map(9, 4, 300, 0.5f)),
+        lens_of(50, 37, 50), look_at({0, 1, 2.5}, {0, 0.3, 0}), {.estimator = estimator});
     set_thread_count(0);
     return result;
 }
 
 TEST(Threads, TheSamplersBytesDoNotDependOnTheirNumber) {
-    const TwoModeResult one = layers_with(1);
-    for (const int threads : {2, 3, 7}) {
-        const TwoModeResult many = layers_with(threads);
-        EXPECT_TRUE(same_bytes(one.layers, many.layers)) << threads;
-        EXPECT_EQ(one.layers.dropped_samples, many.layers.dropped_samples);
-        EXPECT_EQ(one.rays.real_shadow, many.rays.real_shadow);
-        EXPECT_EQ(one.rays.virtual_indirect, many.rays.virtual_indirect);
+    for (const Estimator estimator : {Estimator::two_mode, Estimator::difference}) {
+        const TwoModeResult one = layers_with(1, estimator);
+        for (const int threads : {2, 3, 7}) {
+            const TwoModeResult many = layers_with(threads, estimator);
+            EXPECT_TRUE(same_bytes(one.layers, many.layers)) << threads;
+            EXPECT_EQ(one.layers.dropped_samples, many.layers.dropped_samples);
+            EXPECT_EQ(one.rays.real_shadow, many.rays.real_shadow);
+            EXPECT_EQ(one.rays.virtual_indirect, many.rays.virtual_indirect);
+        }
     }
 }
 

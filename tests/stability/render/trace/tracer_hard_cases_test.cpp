@@ -23,6 +23,10 @@ NoisyLayers sound_layers(std::vector<SceneObject> objects, const Pose& from = vi
     const PlacedScene scene(std::move(objects));
     NoisyLayers layers = sample_scene(scene, hard_light(), lens, from, {}).layers;
     expect_sound(layers);
+    const SamplingSettings apart{.estimator = Estimator::difference};
+    const NoisyLayers difference = sample_scene(scene, hard_light(), lens, from, apart).layers;
+    expect_sound(difference);
+    EXPECT_EQ(difference.dropped_samples, 0U);
     const Picture picture = trace_picture(scene.all, hard_light(), {lens, from}, 4);
     EXPECT_TRUE(sound(picture.radiance, "radiance"));
     EXPECT_EQ(layers.dropped_samples + picture.dropped_samples, 0U);

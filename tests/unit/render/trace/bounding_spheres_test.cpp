@@ -75,6 +75,7 @@ TEST(BoundingSpheres, ACompactShapeGetsOne) {
 TEST(BoundingSpheres, TheSamePointManyTimesKeepsItsPlace) {
     const std::vector<BoundingSphere> parts(1000, {{1, 2, 3}, 0});
     const auto spheres = enclosing_spheres(parts, 64);
+    ASSERT_FALSE(spheres.empty());
     for (const BoundingSphere& s : spheres) {
         EXPECT_EQ(s.centre, glm::vec3(1, 2, 3));
         EXPECT_EQ(s.radius, 0);
