@@ -3,7 +3,6 @@
 #include "composite/blend/differential.h"
 #include "recordings/base/check.h"
 #include "render/filter/filter_layers.h"
-#include "render/trace/real_light.h"
 
 #include <fmt/format.h>
 
@@ -48,9 +47,6 @@ Image<Rgb> picture(const Judge& judge, const std::set<Stage>& swapped) {
     SampledFrame sampled = sample_frame(judge.work, frame, sampling, std::uint32_t(frame.frame));
     NoisyLayers& layers = sampled.result.layers;
     layers.samples = judge.settings.trace.primary * judge.settings.trace.secondary;
-    if (sampled_apart(layers))
-        layers.real_samples =
-            judge.settings.trace.primary * real_light_samples(judge.settings.trace);
     layers.virtual_samples = layers.samples * judge.settings.trace.virtual_repeats;
     FilterSettings filter = judge.settings.filter;
     if (swapped.contains(Stage::filter)) filter.enabled = false;

@@ -5,6 +5,7 @@
 #include "recordings/base/parallel.h"
 #include "render/filter/layer_sizes.h"
 #include "render/filter/receiver_planes.h"
+#include "render/filter/sampled_change.h"
 
 #include <array>
 #include <cmath>
@@ -53,23 +54,15 @@ Receivers prepare(const NoisyLayers& now, const NoisyLayers* previous, Receiver 
     return result;
 }
 
-/// Real receivers with the rates of what changes their light in the place of those of all light.
-Receiver for_change(const NoisyLayers& layers) {
-    Receiver result = layers.real;
-    result.occluder_direct = layers.change_rates.direct;
-    result.occluder_indirect = layers.change_rates.indirect;
-    return result;
-}
-
 /// As `real`, for the change E_RV - E_R.
 Receivers prepare_change(const NoisyLayers& now, const NoisyLayers* previous, const Receivers& real,
                          const FilterSettings& settings) {
     Receivers result = real;
     if (real.now.empty) return result;
-    result.now.receiver = completed(for_change(now), settings);
+    result.now.receiver = completed(receiver_of_change(now), settings);
     if (previous != nullptr && !real.source.empty())
         result.previous =
-            resampled(result.now, completed(for_change(*previous), settings), real.source);
+            resampled(result.now, completed(receiver_of_change(*previous), settings), real.source);
     return result;
 }
 
@@ -177,8 +170,7 @@ Image<float> smooth_light(const Frames& frames, const Receivers& receivers,
         return Image<float>(frames.now.lens.width, frames.now.lens.height);
     }
     const auto samples_of = [&](const NoisyLayers& frame) {
-        return &receivers == &frames.real ? samples_of_real_light(frame)
-                                          : samples_on_virtual(frame);
+        return &receivers == &frames.real ? frame.samples : samples_on_virtual(frame);
     };
     LightLimits limits{kind, frames.environment_bandwidth, nullptr, samples_of(frames.now),
                        as_ratio};
@@ -203,30 +195,15 @@ Image<float> of_larger_cover(const Image<float>& m, const Image<float>& real,
     return result;
 }
 
-Image<Rgb> difference(const Image<Rgb>& a, const Image<Rgb>& b) {
-    Image<Rgb> result(a.width, a.height);
-    parallel_rows(a.height, [&](int y) {
-        for (int x = 0; x < a.width; ++x)
-            result(x, y) = a(x, y) - b(x, y);
-    });
-    return result;
-}
-
-Image<Rgb> change_of(const NoisyLayers& layers, LightKind kind) {
-    const Irradiance& light = light_of(layers, kind);
-    return difference(light.e_rv_real, light.e_r);
-}
-
 /// Smooths E_R and the change apart, each with its own width; returns 1 / sigma of the change.
 Image<float> smooth_difference(const Frames& frames, LightKind kind, Layers& result) {
-    constexpr std::array<Layer, 1> real_alone{&Irradiance::e_r};
-    smooth_light(frames, frames.real, real_alone, kind, result);
+    smooth_light(frames, frames.real, std::array<Layer, 1>{&Irradiance::e_r}, kind, result);
     Irradiance& out = kind == LightKind::direct ? result.direct : result.indirect;
     out.e_rv_real = out.e_r;
     if (frames.real.now.empty) return Image<float>(out.e_r.width, out.e_r.height);
-    const Image<Rgb> now = change_of(frames.now, kind);
+    const Image<Rgb> now = change_of(light_of(frames.now, kind));
     const Image<Rgb> before =
-        frames.previous != nullptr ? change_of(*frames.previous, kind) : Image<Rgb>{};
+        frames.previous != nullptr ? change_of(light_of(*frames.previous, kind)) : Image<Rgb>{};
     const std::array<const Image<Rgb>*, 1> images{&now}, images_before{&before};
     const LightLimits limits{kind, frames.environment_bandwidth, nullptr, frames.now.samples};
     LightLimits limits_before = limits;
@@ -234,9 +211,7 @@ Image<float> smooth_difference(const Frames& frames, LightKind kind, Layers& res
     const Smoothed smoothed =
         smooth(frames.change, images, frames.previous != nullptr ? Images(images_before) : Images{},
                {limits, limits_before}, frames.settings);
-    const Image<Rgb> change = rgb_of(smoothed.channels, 0);
-    for (std::size_t i = 0; i < change.pixels.size(); ++i)
-        out.e_rv_real.pixels[i] = glm::max(out.e_r.pixels[i] + change.pixels[i], 0.0f);
+    out.e_rv_real = with_change(out.e_r, rgb_of(smoothed.channels, 0));
     return smoothed.inverse_width;
 }
 
@@ -244,9 +219,9 @@ Image<float> smooth_difference(const Frames& frames, LightKind kind, Layers& res
 Image<float> smooth_both(const Frames& frames, LightKind kind, Layers& result) {
     constexpr std::array<Layer, 2> on_real{&Irradiance::e_r, &Irradiance::e_rv_real};
     constexpr std::array<Layer, 1> on_virtual{&Irradiance::e_rv_virtual};
-    const bool apart = sampled_apart(frames.now);
-    Image<float> real = apart ? smooth_difference(frames, kind, result)
-                              : smooth_light(frames, frames.real, on_real, kind, result);
+    Image<float> real = sampled_apart(frames.now)
+                            ? smooth_difference(frames, kind, result)
+                            : smooth_light(frames, frames.real, on_real, kind, result);
     if (frames.now.k_v.empty()) return real;  // no virtual surface is seen
     const Image<float> of_virtual = smooth_light(frames, frames.virtual_, on_virtual, kind, result);
     return of_larger_cover(frames.now.m, real, of_virtual);
@@ -277,11 +252,10 @@ void smooth_glossy(const Frames& frames, Layers& result) {
     // A highlight may be a pixel wide: where the width says so, it is left alone.
     FilterSettings settings = frames.settings;
     settings.narrowest_width = 0;
-    const Smoothed smoothed = smooth(glossy, images, {}, {limits, limits}, settings);
-    const Image<Rgb> values = rgb_of(smoothed.channels, 0);
-    for (std::size_t i = 0; i < object.pixels.size(); ++i) {
+    const Image<Rgb> values =
+        rgb_of(smooth(glossy, images, {}, {limits, limits}, settings).channels, 0);
+    for (std::size_t i = 0; i < object.pixels.size(); ++i)
         if (glossy.now.receiver.object.pixels[i] != 0) result.s_rv.pixels[i] = values.pixels[i];
-    }
 }
 
 }  // namespace

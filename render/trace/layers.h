@@ -15,8 +15,9 @@
 
 namespace inlay {
 
-/// Irradiances of one kind of light (direct or indirect), each the mean over its own samples: the
-/// primary samples on real surfaces for the first two, those on virtual ones for the third.
+/// Irradiances of one kind of light (direct or indirect), each the mean over its own samples: those
+/// on real surfaces for the first two, those on virtual ones for the third. Where the change was
+/// sampled for itself, the second is the first plus that change, and may be negative.
 struct Irradiance {
     Image<Rgb> e_r;           // real geometry alone, on real surfaces
     Image<Rgb> e_rv_real;     // real and virtual geometry, on real surfaces
@@ -52,8 +53,7 @@ struct ChangeRates {
 struct NoisyLayers {
     Lens lens;
     Pose world_from_camera;
-    int samples = 0;       // per pixel in all: primary x secondary
-    int real_samples = 0;  // those of E_R where the change is sampled for itself; 0: as `samples`
+    int samples = 0;          // of light, per pixel: primary x secondary
     int virtual_samples = 0;  // the same where virtual surfaces receive; 0: as `samples`
     Image<float> m;           // M: share of all camera rays that met real surfaces or nothing, 0..1
     Image<Rgb> k_v;   // k_V: mean albedo / pi over the samples on virtual surfaces; empty, as all
@@ -71,11 +71,6 @@ struct NoisyLayers {
 
 /// Whether E_RV - E_R was sampled for itself.
 inline bool sampled_apart(const NoisyLayers& layers) { return !layers.change_rates.direct.empty(); }
-
-/// Light samples per pixel of E_R.
-inline int samples_of_real_light(const NoisyLayers& layers) {
-    return layers.real_samples > 0 ? layers.real_samples : layers.samples;
-}
 
 /// Light samples per pixel that virtual surfaces got.
 inline int samples_on_virtual(const NoisyLayers& layers) {

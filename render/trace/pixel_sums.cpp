@@ -1,7 +1,5 @@
 #include "render/trace/pixel_sums.h"
 
-#include "render/trace/real_light.h"
-
 #include <algorithm>
 #include <numbers>
 
@@ -77,10 +75,8 @@ NoisyLayers make_noisy_layers(const Lens& lens, const Pose& world_from_camera,
     layers.m = Image<float>(w, h, 1.0f);
     layers.direct = layers.indirect = make_irradiance(w, h, settings.virtual_seen);
     layers.real = make_receiver(w, h);
-    if (settings.estimator == Estimator::difference) {
+    if (settings.estimator == Estimator::difference)
         layers.change_rates = {Image<float>(w, h), Image<float>(w, h)};
-        layers.real_samples = settings.primary * real_light_samples(settings);
-    }
     if (!settings.virtual_seen) return layers;
     layers.k_v = Image<Rgb>(w, h);
     layers.virtual_ = make_receiver(w, h);

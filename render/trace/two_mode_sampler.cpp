@@ -201,6 +201,7 @@ SamplingSettings with_samples(SamplingSettings settings, int samples) {
             ExitCode::usage);
     settings.primary = std::min(samples, 4);
     settings.secondary = samples / settings.primary;
+    if (settings.coverage > 0) settings.coverage = std::max(settings.coverage, samples / 4);
     return settings;
 }
 

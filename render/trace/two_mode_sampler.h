@@ -1,5 +1,5 @@
 // The two-mode sampler: irradiance with real geometry alone and with real and virtual geometry,
-// from the same random numbers (Mehta 2015, sec. 6.5 and Algorithm 1, corrected).
+// from the same samples (Mehta 2015, sec. 6.5 and Algorithm 1, corrected) or by their difference.
 #pragma once
 
 #include "render/sample/environment_sampler.h"
@@ -21,9 +21,10 @@ enum class Estimator {
 struct SamplingSettings {
     Estimator estimator = Estimator::two_mode;
     int primary = 4;    // camera rays per pixel
-    int secondary = 4;  // light samples per camera ray
+    int secondary = 4;  // light samples per camera ray; E_R gets a quarter with `difference`
     int coverage = 32;  // camera rays per pixel that decide M and k_V where virtual surfaces are
-                        // in view; those beyond `primary` gather no light
+                        // in view; light is gathered by the first `primary` of them, and on virtual
+                        // surfaces by `virtual_repeats` times as many
     int virtual_repeats = 8;  // camera rays whose light is sampled where they meet virtual
                               // surfaces, for each one on real surfaces: there the ratio E_RV / E_R
                               // and wide filters hide most of the noise
@@ -45,7 +46,8 @@ struct SamplingSettings {
 /// Throws Error unless counts are positive (coverage: 0 or more) and shares within 0..1.
 void validate(const SamplingSettings& settings);
 
-/// N = `samples` as 4 primary x N/4 secondary; N x 1 below 4. Throws Error unless N > 0 and, from 4
+/// N = `samples` as 4 primary x N/4 secondary; N x 1 below 4; coverage, unless it is 0, is N/4 at
+/// least, so that edges get better with the light. Throws Error unless N > 0 and, from 4
 /// on, a multiple of 4.
 SamplingSettings with_samples(SamplingSettings settings, int samples);
 

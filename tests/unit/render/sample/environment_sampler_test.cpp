@@ -29,6 +29,20 @@ TEST(EnvironmentSampler, AConstantMapIsSampledEvenly) {
     }
 }
 
+/// What a direction tells is what drawing it told, but where rounding moves it to the next texel.
+TEST(EnvironmentSampler, AlongADirectionLiesTheSampleThatWasDrawn) {
+    const EnvironmentSampler sampler = environment_of(lobe_map(lobe_axis, 5, 0.2f, Rgb(3, 2, 1)));
+    int same = 0;
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+        const LightSample drawn = sample_environment(sampler, stratified_pair({1, 0, 0, i}, 0));
+        const LightSample along = sample_along(sampler, drawn.direction);
+        EXPECT_EQ(along.direction, drawn.direction);
+        EXPECT_EQ(along.pdf, pdf_environment(sampler, drawn.direction));
+        same += along.radiance == drawn.radiance && std::abs(along.pdf / drawn.pdf - 1) < 1e-5f;
+    }
+    EXPECT_GE(same, 995);
+}
+
 TEST(EnvironmentSampler, JacobianIsTheDensity) {
     for (const Image<Rgb>& map :
          {lobe_map(lobe_axis, 5, 0.2f, Rgb(3, 2, 1)), hot_pixel_map(9, 4, 5e4f)}) {

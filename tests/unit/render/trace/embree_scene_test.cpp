@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -40,6 +41,41 @@ TEST(EmbreeScene, HitsASphereWhereTheClosedFormSays) {
         EXPECT_TRUE(near(p.geometric_normal, (p.position - centre) / 0.5f, 1e-5));
     }
     EXPECT_GT(hits, 100);
+}
+
+/// A bound that is too small would hide directions from what aims at it: uneven scales, shear and
+/// more parts than there are bounds included.
+TEST(EmbreeScene, BoundsHoldEveryVertexHoweverPlaced) {
+    std::vector<SceneObject> objects;
+    for (int i = 0; i < 200; ++i) {
+        SceneObject object = mesh_object(bowl_mesh(0.2, 6), Diffuse{});
+        glm::dmat4& m = object.motion[0].world_from_object;
+        const SampleKey key{1, 0, std::uint32_t(i), 0};
+        for (int column = 0; column < 3; ++column)
+            for (int row = 0; row < 3; ++row)
+                m[column][row] =
+                    (column == row ? 0.1 + uniform(key, 0) : 0.0) +
+                    (i % 2 == 0 ? 0.3 * uniform(key, std::uint32_t(3 * column + row + 1)) : 0.0);
+        m[3] = {4.0 * uniform(key, 20), 4.0 * uniform(key, 21), 4.0 * uniform(key, 22), 1};
+        objects.push_back(object);
+    }
+    objects.push_back(sphere_object({1, 2, 3}, 0.5f, Diffuse{}));
+    const PlacedScene scene(objects);
+    ASSERT_FALSE(scene.all.bounds().empty());
+    EXPECT_LE(scene.all.bounds().size(), 64u);
+    const auto held = [&](const glm::vec3& p) {
+        return std::any_of(scene.all.bounds().begin(), scene.all.bounds().end(),
+                           [&](const BoundingSphere& s) {
+                               return glm::distance(s.centre, p) <= s.radius * 1.00001f;
+                           });
+    };
+    for (const PlacedPart& part : scene.all.parts()) {
+        if (!part.mesh) continue;
+        for (const glm::vec3& p : part.mesh->positions)
+            EXPECT_TRUE(held(glm::vec3(part.world_from_local * glm::vec4(p, 1))));
+    }
+    EXPECT_TRUE(held({1, 2.5f, 3}));
+    EXPECT_TRUE(PlacedScene({}).all.bounds().empty());
 }
 
 TEST(EmbreeScene, SeesASphereFromInside) {
