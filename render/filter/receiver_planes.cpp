@@ -216,9 +216,9 @@ void set_precision(FilterPlanes& planes, const PreparedReceiver& receiver,
             const double glossy = limits.glossy_bandwidth == nullptr
                                       ? 0.0
                                       : clamped_bandwidth(double((*limits.glossy_bandwidth)(x, y)));
-            const WidthLimits at{
-                double(r.occluder_direct(x, y)), double(r.occluder_indirect(x, y)), glossy, g,
-                std::min(g, 1.0) * settings.narrowest_width * double(receiver.footprint(x, y))};
+            const WidthLimits at{double(r.occluder_direct(x, y)), double(r.occluder_indirect(x, y)),
+                                 glossy, g,
+                                 settings.narrowest_width * double(receiver.footprint(x, y))};
             const double turning = limits.ignore_curvature ? 0.0 : 1.0;
             planes.precision_x(x, y) =
                 precision_at(turning * double(receiver.curvature.x(x, y)), at, limits, settings);

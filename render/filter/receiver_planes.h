@@ -63,10 +63,9 @@ std::shared_ptr<const SurfacePlanes> surface_planes(const Receiver& receiver);
 FilterPlanes planes_of(const PreparedReceiver& receiver, std::span<const Image<Rgb>* const> images,
                        const Image<std::int32_t>* source);
 
-/// Sets both precisions (1 / sigma^2): sigma is that of bandlimits.h times the sample factor g, and
-/// narrowest_width pixels at least: at 16 samples that bound lowers the error by up to a half where
-/// light changes within a pixel or two. With more samples it shrinks with g, so that the error goes
-/// on falling.
+/// Sets both precisions (1 / sigma^2): sigma is that of bandlimits.h times the sample factor, and
+/// narrowest_width pixels at least. That bound is what the error stops at with many samples, where
+/// light changes within a pixel or two; at 16 to 64 samples it lowers the error by up to a half.
 void set_precision(FilterPlanes& planes, const PreparedReceiver& receiver,
                    const LightLimits& limits, const FilterSettings& settings);
 

@@ -20,6 +20,7 @@ using testing::HasSubstr;
 void write_circle(const std::filesystem::path& file, const std::function<double(int)>& off,
                   double start = 0) {
     std::ofstream out(file);
+    out.precision(15);
     for (int i = 0; i < 40; ++i)
         out << start + 0.05 * i << ' ' << std::cos(0.1 * i) + off(i) << ' ' << std::sin(0.1 * i)
             << " 0 0 0 0 1\n";

@@ -223,7 +223,8 @@ TEST(Replay, DescribesTheRun) {
         EXPECT_TRUE(effect["in"].get<bool>() || effect["passes"].empty());
     }
     EXPECT_EQ(run["plan"][1]["effect"], "environment_indirect");
-    EXPECT_EQ(run["plan"][1]["rays_per_pixel"]["real_indirect"], 4);  // as --samples 4 says
+    EXPECT_EQ(run["plan"][1]["rays_per_pixel"]["real_indirect"],
+              8);  // --samples 4: as many of E_R, and of exchanged surfaces
 }
 
 TEST(Replay, ExplainsAndWritesNothing) {
