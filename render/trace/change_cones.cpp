@@ -29,7 +29,9 @@ void find_cones(std::span<const BoundingSphere> spheres, const glm::vec3& positi
                 const glm::vec3& normal, ChangeCones& cones) {
     require(spheres.size() <= std::size_t(most_change_cones), "more bounds than change cones");
     cones.count = 0;
-    float sum = 0;
+    cones.normal = normal;
+    bool held = false;
+    float sum = 0;  // bound of the irradiance of an even sky of radiance 1, over 2 pi
     for (const BoundingSphere& sphere : spheres) {
         const auto i = std::size_t(cones.count);
         const glm::vec3 to_centre = sphere.centre - position;
@@ -37,16 +39,14 @@ void find_cones(std::span<const BoundingSphere> spheres, const glm::vec3& positi
         const float above = glm::dot(normal, to_centre);
         if (!(above + radius > 0)) continue;
         const float distance = glm::length(to_centre);
-        float cosine = 1;
-        if (radius < distance) {
-            const float sine = radius / distance;
-            cones.axis[i] = to_centre / distance;
-            cones.height[i] = sine * sine / (1 + std::sqrt((1 - sine) * (1 + sine)));
-            cosine = largest_cosine(above / distance, cones.height[i]);
-        } else {
-            cones.axis[i] = normal;
-            cones.height[i] = 1;
+        if (radius >= distance) {
+            held = true;
+            continue;
         }
+        const float sine = radius / distance;
+        cones.axis[i] = to_centre / distance;
+        cones.height[i] = sine * sine / (1 + std::sqrt((1 - sine) * (1 + sine)));
+        const float cosine = largest_cosine(above / distance, cones.height[i]);
         const float weight = cones.height[i] * cosine;
         if (!(weight > 0)) continue;
         cones.below[i] = sum;
@@ -54,18 +54,26 @@ void find_cones(std::span<const BoundingSphere> spheres, const glm::vec3& positi
         sum += weight;
         ++cones.count;
     }
-    cones.fill = std::min(1.0f, 2 * sum);
+    const float hemisphere = held ? 0.5f : 0.0f;
+    const float total = sum + hemisphere;
+    cones.fill = std::min(1.0f, 2 * total);
+    cones.hemisphere = held ? hemisphere / total : 0.0f;
     for (std::size_t i = 0; i < std::size_t(cones.count); ++i) {
-        cones.below[i] /= sum;
-        cones.density[i] /= 2 * pi * sum;
+        cones.below[i] = (hemisphere + cones.below[i]) / total;
+        cones.density[i] /= 2 * pi * total;
     }
 }
 
 DirectionSample sample_cones(const ChangeCones& cones, glm::vec2 u) {
-    if (cones.count == 0) return {};
+    if (cones.empty()) return {};
+    if (u.x < cones.hemisphere || cones.count == 0) {
+        const glm::vec3 local = sample_cosine_hemisphere({u.x / cones.hemisphere, u.y}).direction;
+        const glm::vec3 direction = basis_about(cones.normal) * local;
+        return {direction, pdf_cones(cones, direction)};
+    }
     const auto end = cones.below.begin() + cones.count;
     const auto i =
-        std::size_t(std::upper_bound(cones.below.begin(), end, u.x) - cones.below.begin() - 1);
+        std::size_t(std::upper_bound(cones.below.begin() + 1, end, u.x) - cones.below.begin() - 1);
     const float next = int(i) + 1 < cones.count ? cones.below[i + 1] : 1.0f;
     const float within = std::clamp((u.x - cones.below[i]) / (next - cones.below[i]), 0.0f, 1.0f);
     const float down = within * cones.height[i];  // 1 - cosine
@@ -77,7 +85,7 @@ DirectionSample sample_cones(const ChangeCones& cones, glm::vec2 u) {
 }
 
 float pdf_cones(const ChangeCones& cones, const glm::vec3& direction) {
-    float density = 0;
+    float density = cones.hemisphere * std::max(0.0f, glm::dot(cones.normal, direction)) / pi;
     for (std::size_t i = 0; i < std::size_t(cones.count); ++i) {
         // 1 - cosine as half the squared distance of unit vectors: exact for narrow cones
         const glm::vec3 apart = direction - cones.axis[i];

@@ -14,15 +14,19 @@ namespace inlay {
 inline constexpr int most_change_cones = 64;
 
 /// Circular cones about the bounding spheres above a surface's horizon, each sampled evenly in
-/// solid angle and chosen in proportion to its solid angle times its largest cosine. Where a sphere
-/// holds the point or touches it, its cone is the hemisphere.
+/// solid angle and chosen in proportion to its solid angle times its largest cosine. Spheres that
+/// hold the point or touch it are seen in the hemisphere, which is sampled with the cosine.
 struct ChangeCones {
-    int count = 0;
+    int count = 0;         // circular ones
+    float hemisphere = 0;  // share of the samples over the hemisphere, 0..1
+    glm::vec3 normal{0.0f};
     float fill = 0;  // bound of the share of an even sky's irradiance that comes from them, 0..1
     std::array<glm::vec3, most_change_cones> axis;  // unit
     std::array<float, most_change_cones> height;    // 1 - cosine of the half angle, 0..1
     std::array<float, most_change_cones> density;   // per steradian, of all samples together
-    std::array<float, most_change_cones> below;     // share of the samples in the cones before
+    std::array<float, most_change_cones> below;     // share of the samples in those before
+
+    bool empty() const { return count == 0 && hemisphere == 0; }
 };
 
 /// Sets the cones of `spheres` as seen from `position`, where rays start, on a surface with the

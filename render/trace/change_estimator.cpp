@@ -116,6 +116,12 @@ struct Follow {
 constexpr Follow shadows{take_shadows, &RayCounts::virtual_shadow};
 constexpr Follow surfaces{exchange_surfaces, &RayCounts::virtual_indirect};
 
+/// Half of the tries over the cones, with random numbers of its own.
+struct Half {
+    SampleDimension dimension;
+    const Follow& follow;
+};
+
 void look_for_virtual(Search& search, const Follow& follow) {
     const RayPacket rays = rays_of(search, search.waiting).against_virtual;
     const HitPacket hits = search.pass.scene.virtual_objects.intersect(rays);
@@ -168,14 +174,16 @@ void try_lights(Search& search) {
     const int tries = search.change.counts.light;
     for (int n = 0; n < tries; ++n)
         for (std::size_t lane = 0; lane < packet_width; ++lane)
-            if (search.cones[lane].count > 0)
+            if (!search.cones[lane].empty())
                 follow_try(search, try_light(search, lane, search.change.ray * tries + n), shadows);
     follow_rest(search, shadows);
 }
 
-Try try_cone(const Search& search, std::size_t lane, const SampleKey& key) {
+Try try_cone(const Search& search, std::size_t lane, int number, const Half& half) {
+    SampleKey key = search.pass.keys[lane];
+    key.sample = std::uint32_t(number);
     const DirectionSample drawn =
-        sample_cones(search.cones[lane], stratified_pair(key, change_by_cones));
+        sample_cones(search.cones[lane], stratified_pair(key, half.dimension));
     if (!(drawn.pdf > 0)) return {};
     const LightSample light = sample_along(search.pass.scene.environment, drawn.direction);
     const float cosine = glm::dot(search.pass.landings[lane].normal, drawn.direction);
@@ -188,27 +196,28 @@ Try try_cone(const Search& search, std::size_t lane, const SampleKey& key) {
             {}};
 }
 
-/// One half of the tries over the cones: a random whole number of them with the right mean.
-void try_cones(Search& search, int half, const Follow& follow) {
-    const int most_tries = (search.change.counts.cones + 1) / 2;
-    std::array<int, packet_width> tries{};
-    int most = 0;
+/// One half of the tries over the cones: whole numbers of them, whose sum over a pixel's rays is
+/// rounded up or down at random to the right mean.
+void try_cones(Search& search, const Half& half) {
+    std::array<int, packet_width> next{}, end{};
     for (std::size_t lane = 0; lane < packet_width; ++lane) {
-        if (search.cones[lane].count == 0) continue;
-        const SampleKey& key = search.pass.keys[lane];
-        tries[lane] =
-            int(0.5f * search.by_cones[lane] + uniform(key, change_by_cones + std::uint32_t(half)));
-        most = std::max(most, tries[lane]);
+        if (search.cones[lane].empty()) continue;
+        SampleKey key = search.pass.keys[lane];
+        key.sample = 0;  // one rounding for all rays of the pixel
+        const float rounding = uniform(key, half.dimension);
+        const float before = search.pass.sums[lane].change.cone_tries;
+        next[lane] = int(before + rounding);
+        end[lane] = int(before + 0.5f * search.by_cones[lane] + rounding);
     }
-    for (int n = 0; n < most; ++n) {
+    for (bool more = true; more;) {
+        more = false;
         for (std::size_t lane = 0; lane < packet_width; ++lane) {
-            if (n >= tries[lane]) continue;
-            SampleKey key = search.pass.keys[lane];
-            key.sample = std::uint32_t((search.change.ray * most_tries + n) * 2 + half);
-            follow_try(search, try_cone(search, lane, key), follow);
+            if (next[lane] >= end[lane]) continue;
+            follow_try(search, try_cone(search, lane, next[lane]++, half), half.follow);
+            more = true;
         }
     }
-    follow_rest(search, follow);
+    follow_rest(search, half.follow);
 }
 
 /// Cones that would send this share of an even sky's irradiance, or more, get all tries: a change
@@ -231,6 +240,7 @@ void add_change(const ChangePass& change) {
         int(std::bit_ceil(unsigned(std::max(1, pass.settings.primary * change.counts.light))));
     for (std::size_t i = 0; i < packet_width; ++i) {
         search.cones[i].count = 0;
+        search.cones[i].hemisphere = 0;
         const Landing& landing = pass.landings[i];
         if (!is_real(landing)) continue;
         ++change.pass.sums[i].change.camera_rays;
@@ -242,8 +252,10 @@ void add_change(const ChangePass& change) {
                              std::clamp(search.cones[i].fill / full_fill, least_share, 1.0f);
     }
     try_lights(search);
-    try_cones(search, 0, surfaces);
-    if (change.counts.light > 0) try_cones(search, 1, shadows);
+    try_cones(search, {change_by_cones, surfaces});
+    if (change.counts.light > 0) try_cones(search, {change_by_cones_again, shadows});
+    for (std::size_t i = 0; i < packet_width; ++i)
+        if (!search.cones[i].empty()) pass.sums[i].change.cone_tries += 0.5f * search.by_cones[i];
 }
 
 }  // namespace inlay

@@ -51,6 +51,7 @@ struct ReceiverSums {
 /// E_RV - E_R, and how fast it may vary.
 struct ChangeSums {
     int camera_rays = 0, dropped = 0;
+    float cone_tries = 0;                      // of one half, on average over their roundings
     glm::dvec3 direct{0.0}, indirect{0.0};     // each sample over the samples of its camera ray
     float rate_direct = 0, rate_indirect = 0;  // largest cos/r of virtual surfaces, 1/m
 

@@ -11,21 +11,31 @@ constexpr float pi = std::numbers::pi_v<float>;
 
 bool is_real(const Landing& landing) { return landing.kind == LandingKind::real; }
 
+/// Share of an open surface's irradiance above which a change is plainly seen.
+constexpr float shown_change = 0.06f;
+
 }  // namespace
 
-int real_light_samples(const SamplingSettings& settings) {
-    return std::max(1, settings.secondary / 4);
+int real_light_samples(const TwoModeScene& scene, const SamplingSettings& settings,
+                       const ChangeSums& change) {
+    const glm::dvec3 sum = glm::abs(change.direct) + glm::abs(change.indirect);
+    const float shown = shown_change * pi * scene.environment.mean_luminance;
+    const bool is_shown = luminance(Rgb(sum)) > shown * float(change.camera_rays);
+    const int most = most_real_light_samples(settings);
+    return is_shown ? most : std::max(1, most / 4);
 }
 
-void add_real_direct(SamplePass& pass) {
-    const int samples = pass.settings.primary * real_light_samples(pass.settings);
+int most_real_light_samples(const SamplingSettings& settings) { return settings.secondary; }
+
+void add_real_direct(SamplePass& pass, const PixelCounts& counts) {
     std::array<LightSample, packet_width> lights;
     RayPair rays;
     for (int lane = 0; lane < packet_width; ++lane) {
         const auto i = std::size_t(lane);
         const Landing& from = pass.landings[i];
         if (!is_real(from)) continue;
-        lights[i] = light_sample(pass, pass.keys[i], light_direction, samples);
+        lights[i] =
+            light_sample(pass, pass.keys[i], light_direction, pass.settings.primary * counts[i]);
         if (lights[i].pdf > 0 && glm::dot(from.normal, lights[i].direction) > 0)
             rays.set(lane, from, lights[i].direction, pass.scene.real.offset);
     }

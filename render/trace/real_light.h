@@ -5,12 +5,19 @@
 
 namespace inlay {
 
-/// Samples of E_R per camera ray where it is sampled for itself: a quarter of settings.secondary,
-/// and one at least.
-int real_light_samples(const SamplingSettings& settings);
+/// A number for each pixel of a tile.
+using PixelCounts = std::array<int, packet_width>;
 
-/// One sample of the environment's light on real surfaces, shadowed by real geometry.
-void add_real_direct(SamplePass& pass);
+/// Samples of E_R per camera ray, where it is sampled for itself, in a pixel with this `change`,
+/// which must be complete: settings.secondary if it is large enough to be seen, since the ratio to
+/// E_R is shown there; else a quarter of that, for the neighbours to filter with. One at least.
+int real_light_samples(const TwoModeScene& scene, const SamplingSettings& settings,
+                       const ChangeSums& change);
+int most_real_light_samples(const SamplingSettings& settings);
+
+/// One sample of the environment's light on real surfaces, shadowed by real geometry. `counts` are
+/// the samples that each pixel takes per camera ray.
+void add_real_direct(SamplePass& pass, const PixelCounts& counts);
 
 /// One bounce along the cosine lobe of real surfaces, which meets real geometry alone.
 void add_real_indirect(SamplePass& pass);

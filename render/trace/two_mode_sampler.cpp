@@ -79,16 +79,30 @@ struct TilePass {
         }
     }
 
-    /// Light samples of real surfaces: few of E_R, and many of what virtual geometry changes.
-    void add_differences(const Landings& landings, int ray) const {
-        const int of_real = real_light_samples(settings);
+    /// Samples of what virtual geometry changes on real surfaces.
+    void add_changes(const Landings& landings, int ray) const {
         SamplePass pass{scene, settings, landings, keys(ray), tile.sums, tile.rays, nets};
         add_change({pass, change_counts(scene, settings), ray});
-        for (int s = 0; s < of_real; ++s) {
-            SamplePass of_light{scene,     settings,  landings, keys(ray * of_real + s),
-                                tile.sums, tile.rays, nets};
-            add_real_direct(of_light);
-            add_real_indirect(of_light);
+    }
+
+    /// Samples of E_R: more where virtual geometry was seen to change the light.
+    void add_real_light(const Landings& landings, int ray) const {
+        PixelCounts counts{};
+        for_each_lane([&](std::size_t lane, const PixelSums& sums) {
+            if (landings[lane].kind == LandingKind::real)
+                counts[lane] = real_light_samples(scene, settings, sums.change);
+        });
+        const int most = *std::max_element(counts.begin(), counts.end());
+        for (int s = 0; s < most; ++s) {
+            Landings sampled;
+            SampleKeys numbers = keys(ray);
+            for (std::size_t lane = 0; lane < packet_width; ++lane) {
+                if (s < counts[lane]) sampled[lane] = landings[lane];
+                numbers[lane].sample = std::uint32_t(ray * counts[lane] + s);
+            }
+            SamplePass pass{scene, settings, sampled, numbers, tile.sums, tile.rays, nets};
+            add_real_direct(pass, counts);
+            add_real_indirect(pass);
         }
     }
 
@@ -112,15 +126,16 @@ bool any_landing(const Landings& landings) {
                        [](const Landing& landing) { return landing.kind != LandingKind::nothing; });
 }
 
-/// Light samples of what one camera ray of each pixel met. Each ray takes the sample numbers that
-/// follow those of the ray before it, so that a pixel's samples are spread as one sequence.
+/// Light samples of what one camera ray of each pixel met, but for E_R where it is sampled for
+/// itself. Each ray takes the sample numbers that follow those of the ray before it, so that a
+/// pixel's samples are spread as one sequence.
 void gather_light(const TilePass& pass, const Landings& landings, int ray) {
     const int first_sample = ray * pass.settings.secondary;
     if (pass.settings.estimator == Estimator::two_mode) {
         pass.add_samples(landings, first_sample);
         return;
     }
-    pass.add_differences(landings, ray);
+    pass.add_changes(landings, ray);
     const Landings on_virtual = only(LandingKind::on_virtual, landings);
     if (any_landing(on_virtual)) pass.add_samples(on_virtual, first_sample);
 }
@@ -157,18 +172,25 @@ void refine(const TilePass& pass) {
     }
     for (const Landings* missed : {&missed_real, &missed_virtual})
         if (any_landing(*missed)) gather_light(pass, *missed, lit);
+    if (settings.estimator == Estimator::difference && any_landing(missed_real))
+        pass.add_real_light(missed_real, lit);
 }
 
 void sample_tile(const TilePass& pass) {
     const SamplingSettings& settings = pass.settings;
+    std::vector<Landings> seen;
     for (int p = 0; p < settings.primary; ++p) {
-        const Landings landings = pass.land_at(p);
+        seen.push_back(pass.land_at(p));
+        const Landings& landings = seen.back();
         pass.for_each_lane([&](std::size_t lane, PixelSums& sums) {
             look(landings[lane], sums);
             if (landings[lane].kind != LandingKind::nothing) receive(landings[lane], sums);
         });
         gather_light(pass, landings, p);
     }
+    if (settings.estimator == Estimator::difference)
+        for (int p = 0; p < settings.primary; ++p)
+            pass.add_real_light(seen[std::size_t(p)], p);
     if (sees_virtual(pass.tile)) refine(pass);
 }
 

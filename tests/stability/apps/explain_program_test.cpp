@@ -55,7 +55,7 @@ TEST(Explain, TheCostFollowsTheSettings) {
     const std::string command =
         "render " + path_of(six_scenes[1]) + " --explain --samples 8 --filter off";
     const Outcome few = run_program(command);
-    EXPECT_THAT(few.out, HasSubstr("pass real direct light: 4 per pixel"));
+    EXPECT_THAT(few.out, HasSubstr("pass real direct light: 8 per pixel"));
     EXPECT_THAT(few.out, HasSubstr("pass directions tried for a change: 36 per pixel"));
     EXPECT_THAT(run_program(command + " --set render.estimator=two_mode").out,
                 HasSubstr("pass direct light: 8 per pixel"));
