@@ -3,6 +3,7 @@
 #include "composite/measure/image_error.h"
 #include "composite/session/prepare_scene.h"
 #include "composite/session/session.h"
+#include "recordings/base/check.h"
 #include "recordings/environment/exr_image.h"
 #include "recordings/readers/recording.h"
 
@@ -29,6 +30,7 @@ struct FrameError {
 
 /// Pixels that the objects change: where the two truths differ by more than their noise.
 Mask changed_pixels(const Image<Rgb>& with, const Image<Rgb>& without, const Image<Rgb>& error) {
+    require(same_size(with, without) && same_size(with, error), "truths differ in size");
     Mask changed(with.width, with.height);
     for (std::size_t i = 0; i < with.pixels.size(); ++i)
         changed.pixels[i] = luminance(glm::abs(with.pixels[i] - without.pixels[i])) >
