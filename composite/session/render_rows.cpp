@@ -44,6 +44,7 @@ std::vector<SettingRow> render_rows() {
         row("filter.visibility_safety", "s_v", INLAY_MEMBER(filter.visibility_safety)),
         row("filter.kernel_radius", "px", INLAY_MEMBER(filter.kernel_radius)),
         row("filter.narrowest_width", "px", INLAY_MEMBER(filter.narrowest_width)),
+        row("filter.narrowest_change", "px", INLAY_MEMBER(filter.narrowest_change)),
         row("filter.normal_stop_deg", "degrees", INLAY_MEMBER(filter.normal_stop_deg)),
         row("filter.temporal", "on|off", INLAY_MEMBER(filter.temporal)),
         row("filter.rejection_distance", "px", INLAY_MEMBER(filter.rejection_distance)),

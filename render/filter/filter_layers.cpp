@@ -6,10 +6,10 @@
 #include "render/filter/layer_sizes.h"
 #include "render/filter/receiver_planes.h"
 #include "render/filter/sampled_change.h"
+#include "render/filter/shadow_ratio.h"
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -125,22 +125,6 @@ struct Frames {
 
 using Layer = Image<Rgb> Irradiance::*;
 
-/// E -> E_unocc(n) E / U at every receiver; 0 where U is.
-void scale_to_open_sky(const EnvironmentIrradiance& open_sky, const Receiver& receiver,
-                       const Image<Rgb>& unshadowed, Image<Rgb>& light) {
-    parallel_rows(light.height, [&](int y) {
-        for (int x = 0; x < light.width; ++x) {
-            if (receiver.object(x, y) == 0) continue;
-            const Rgb open = irradiance_on(open_sky, receiver.normal(x, y));
-            for (int c = 0; c < 3; ++c) {
-                const float u = unshadowed(x, y)[c];
-                light(x, y)[c] =
-                    u >= std::numeric_limits<float>::min() ? open[c] * (light(x, y)[c] / u) : 0.0f;
-            }
-        }
-    });
-}
-
 const Irradiance& light_of(const NoisyLayers& layers, LightKind kind) {
     return kind == LightKind::direct ? layers.direct : layers.indirect;
 }
@@ -169,13 +153,17 @@ Image<float> smooth_light(const Frames& frames, const Receivers& receivers,
             out.*layer = Image<Rgb>(frames.now.lens.width, frames.now.lens.height, Rgb(0));
         return Image<float>(frames.now.lens.width, frames.now.lens.height);
     }
-    const auto samples_of = [&](const NoisyLayers& frame) {
-        return &receivers == &frames.real ? frame.samples : samples_on_virtual(frame);
+    const auto limits_of = [&](const NoisyLayers& frame) {
+        const bool real = &receivers == &frames.real;
+        return LightLimits{kind,
+                           frames.environment_bandwidth,
+                           nullptr,
+                           real ? frame.samples : samples_on_virtual(frame),
+                           frames.settings.narrowest_width,
+                           as_ratio};
     };
-    LightLimits limits{kind, frames.environment_bandwidth, nullptr, samples_of(frames.now),
-                       as_ratio};
-    LightLimits limits_before = limits;
-    if (frames.previous != nullptr) limits_before.samples = samples_of(*frames.previous);
+    const LightLimits limits = limits_of(frames.now);
+    const LightLimits limits_before = frames.previous ? limits_of(*frames.previous) : limits;
     const Smoothed smoothed =
         smooth(receivers, now, before, {limits, limits_before}, frames.settings);
     for (std::size_t i = 0; i < layers.size(); ++i)
@@ -205,9 +193,13 @@ Image<float> smooth_difference(const Frames& frames, LightKind kind, Layers& res
     const Image<Rgb> before =
         frames.previous != nullptr ? change_of(light_of(*frames.previous, kind)) : Image<Rgb>{};
     const std::array<const Image<Rgb>*, 1> images{&now}, images_before{&before};
-    const LightLimits limits{kind, frames.environment_bandwidth, nullptr, frames.now.samples};
-    LightLimits limits_before = limits;
-    if (frames.previous != nullptr) limits_before.samples = frames.previous->samples;
+    const auto limits_of = [&](const NoisyLayers& frame) {
+        return LightLimits{
+            kind, frames.environment_bandwidth, nullptr, frame.samples,
+            frames.settings.narrowest_change * sample_factor(frame.samples, frames.settings)};
+    };
+    const LightLimits limits = limits_of(frames.now);
+    const LightLimits limits_before = frames.previous ? limits_of(*frames.previous) : limits;
     const Smoothed smoothed =
         smooth(frames.change, images, frames.previous != nullptr ? Images(images_before) : Images{},
                {limits, limits_before}, frames.settings);
@@ -247,13 +239,11 @@ void smooth_glossy(const Frames& frames, Layers& result) {
     }
     if (!any) return;
     const std::array<const Image<Rgb>*, 1> images{&now.s_rv};
-    const LightLimits limits{LightKind::direct, frames.environment_bandwidth, &now.glossy_bandwidth,
-                             samples_on_virtual(now)};
     // A highlight may be a pixel wide: where the width says so, it is left alone.
-    FilterSettings settings = frames.settings;
-    settings.narrowest_width = 0;
+    const LightLimits limits{LightKind::direct, frames.environment_bandwidth, &now.glossy_bandwidth,
+                             samples_on_virtual(now), 0};
     const Image<Rgb> values =
-        rgb_of(smooth(glossy, images, {}, {limits, limits}, settings).channels, 0);
+        rgb_of(smooth(glossy, images, {}, {limits, limits}, frames.settings).channels, 0);
     for (std::size_t i = 0; i < object.pixels.size(); ++i)
         if (glossy.now.receiver.object.pixels[i] != 0) result.s_rv.pixels[i] = values.pixels[i];
 }

@@ -29,6 +29,8 @@ void validate(const FilterSettings& s) {
                     s.kernel_radius, "0 to 1000 px");
     require_setting(std::isfinite(s.narrowest_width) && s.narrowest_width >= 0, "narrowest_width",
                     s.narrowest_width, "0 px or more");
+    require_setting(std::isfinite(s.narrowest_change) && s.narrowest_change >= 0,
+                    "narrowest_change", s.narrowest_change, "0 px or more");
     require_setting(positive(s.normal_stop_deg) && s.normal_stop_deg < 90, "normal_stop_deg",
                     s.normal_stop_deg, "an angle between 0 and 90 degrees");
     require_setting(positive(s.rejection_distance), "rejection_distance", s.rejection_distance,

@@ -217,8 +217,7 @@ void set_precision(FilterPlanes& planes, const PreparedReceiver& receiver,
                                       ? 0.0
                                       : clamped_bandwidth(double((*limits.glossy_bandwidth)(x, y)));
             const WidthLimits at{double(r.occluder_direct(x, y)), double(r.occluder_indirect(x, y)),
-                                 glossy, g,
-                                 settings.narrowest_width * double(receiver.footprint(x, y))};
+                                 glossy, g, limits.narrowest * double(receiver.footprint(x, y))};
             const double turning = limits.ignore_curvature ? 0.0 : 1.0;
             planes.precision_x(x, y) =
                 precision_at(turning * double(receiver.curvature.x(x, y)), at, limits, settings);

@@ -51,6 +51,7 @@ struct LightLimits {
     double environment_bandwidth = 0;                // B_e, 1/rad
     const Image<float>* glossy_bandwidth = nullptr;  // B_rho per pixel; null: diffuse
     int samples = 16;                                // per pixel
+    double narrowest = 0;                            // px, lower bound of sigma
     bool ignore_curvature = false;                   // the values do not change with the normal
 };
 
@@ -64,7 +65,7 @@ FilterPlanes planes_of(const PreparedReceiver& receiver, std::span<const Image<R
                        const Image<std::int32_t>* source);
 
 /// Sets both precisions (1 / sigma^2): sigma is that of bandlimits.h times the sample factor, and
-/// narrowest_width pixels at least. That bound is what the error stops at with many samples, where
+/// limits.narrowest pixels at least. That bound is what the error stops at with many samples, where
 /// light changes within a pixel or two; at 16 to 64 samples it lowers the error by up to a half.
 void set_precision(FilterPlanes& planes, const PreparedReceiver& receiver,
                    const LightLimits& limits, const FilterSettings& settings);

@@ -27,7 +27,7 @@ int real_light_samples(const TwoModeScene& scene, const SamplingSettings& settin
 
 int most_real_light_samples(const SamplingSettings& settings) { return settings.secondary; }
 
-void add_real_direct(SamplePass& pass, const PixelCounts& counts) {
+void add_real_direct(SamplePass& pass, const LaneCounts& counts) {
     std::array<LightSample, packet_width> lights;
     RayPair rays;
     for (int lane = 0; lane < packet_width; ++lane) {

@@ -87,7 +87,7 @@ struct TilePass {
 
     /// Samples of E_R: more where virtual geometry was seen to change the light.
     void add_real_light(const Landings& landings, int ray) const {
-        PixelCounts counts{};
+        LaneCounts counts{};
         for_each_lane([&](std::size_t lane, const PixelSums& sums) {
             if (landings[lane].kind == LandingKind::real)
                 counts[lane] = real_light_samples(scene, settings, sums.change);

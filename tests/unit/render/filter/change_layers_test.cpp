@@ -63,6 +63,20 @@ TEST(ChangeLayers, ItsOwnRateNarrowsTheChangeAlone) {
     EXPECT_TRUE(same_bytes(a.indirect, b.indirect));
 }
 
+/// An occluder that touches bounds the width from below alone: in pixels, and with the samples.
+TEST(ChangeLayers, ATouchingOccluderLeavesTheNarrowestWidthOfItsSamples) {
+    FilterSettings settings;
+    settings.narrowest_change = 0.5;
+    NoisyLayers layers = plane_with_change(1, Rgb(0.5f), 1e6f);
+    for (const int samples : {16, 256}) {
+        layers.samples = samples;
+        const double width = settings.narrowest_change * spacing * (samples == 16 ? 1 : 0.5);
+        EXPECT_NEAR(
+            filter_layers(layers, nullptr, bandwidth, settings).bandwidth_direct(24, 18) * width, 1,
+            0.01);  // the camera sees the plane's pixels within 1 % of evenly spaced
+    }
+}
+
 TEST(ChangeLayers, AFrameThatWasSampledAnotherWayAddsNothing) {
     const NoisyLayers apart = plane_with_change(1, Rgb(0.5f));
     const NoisyLayers together = noisy_plane(48, 36, spacing, 5);
