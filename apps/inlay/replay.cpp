@@ -8,6 +8,7 @@
 #include "apps/inlay/command.h"
 #include "apps/inlay/frame_list.h"
 #include "apps/inlay/frame_selection.h"
+#include "apps/inlay/governed_run.h"
 #include "apps/inlay/interrupt.h"
 #include "apps/inlay/invocation.h"
 #include "apps/inlay/progress.h"
@@ -29,6 +30,7 @@ struct ReplayOptions {
     CommonOptions common;
     RecordingOptions recording;
     RenderOptions render;
+    GovernOptions govern;
     std::string scene, out, video, shard;
     std::string slam = "accurate";
     std::string poses, geometry;  // "" = by settings
@@ -123,7 +125,7 @@ void print_totals(const ReplayOptions& o, const Totals& t) {
 
 /// Composites what is not finished yet. Returns false if it was interrupted.
 bool play(Session& session, const Recording& recording, const std::vector<int>& frames,
-          ReplayOutput& output, const ReplayOptions& o, Totals& totals) {
+          ReplayOutput& output, GovernedRun& governed, const ReplayOptions& o, Totals& totals) {
     std::vector<int> open;
     for (const int frame : frames)
         if (!output.finished.contains(frame)) open.push_back(frame);
@@ -136,11 +138,16 @@ bool play(Session& session, const Recording& recording, const std::vector<int>& 
         StopWatch watch;
         const RgbdFrame frame = recording.load(tasks[i].frame);
         const double load_ms = watch.lap();
+        if (tasks[i].work != FrameWork::track) choose_samples(governed, session, frame.index);
         const OutputFrame out = advance(session, frame, tasks[i].work);
         if (out.tracking.status == TrackingStatus::lost && !session.settings.use_recorded_poses)
             spdlog::warn("frame {}: tracking is lost", frame.index);
-        if (tasks[i].work == FrameWork::compose)
-            totals.add(write_frame(output, frame, out, load_ms), out);
+        if (tasks[i].work == FrameWork::compose) {
+            const auto choice = note_choice(governed, session, frame, out);
+            const FrameReport report = write_frame(output, frame, out, {load_ms, choice});
+            learn_from(governed, session, frame, out, report);
+            totals.add(report, out);
+        }
         progress.advance_to(int(i) + 1);
     }
     return true;
@@ -168,7 +175,32 @@ RunDescription description_of(const ReplayOptions& o, const SceneFile& scene,
                               const Settings& settings, const EffectPlan& plan) {
     return {invocation(), o.common.frames, o.shard,  o.render.assets,
             o.scene,      scene.files,     settings, parse_layers(o.render.layers),
-            plan};
+            plan,         o.govern.goal,   {}};
+}
+
+/// Adds what is known of the samples of frames: from the run that is asked for, and from the one
+/// that is resumed, whose goal is kept.
+void add_choices_before(const ReplayOptions& o, const RecordingInfo& recording,
+                        RunDescription& run) {
+    if (!o.govern.choices.empty()) {
+        run.choices = read_governed(o.govern.choices, recording, run).choices;
+        require(!run.choices.empty(), o.govern.choices +
+                                          ": no samples of a frame were chosen there; "
+                                          "expected the run.json of a run by time or by error");
+    }
+    const std::filesystem::path folder(o.out), file = folder / "run.json";
+    if (!o.resume || !std::filesystem::exists(file)) return;
+    const GovernedBefore before = read_governed(file, recording, run);
+    const bool same_goal =
+        before.goal.ms_per_frame == run.goal.ms_per_frame && before.goal.error == run.goal.error;
+    require(same_goal,
+            file.string() +
+                ": this run was made with another --time-per-frame or "
+                "--error; resume with the same, or choose another --out",
+            ExitCode::usage);
+    run.choices.insert(before.choices.begin(), before.choices.end());
+    for (const FrameReport& report : read_reports(folder / "frames.jsonl"))
+        if (report.governor) run.choices[report.frame] = report.governor->samples;
 }
 
 /// Says what is odd about the scene.
@@ -186,6 +218,10 @@ int run(const ReplayOptions& o) {
         print_settings(settings);
         return 0;
     }
+    validate(o.govern);
+    require(!o.render.samples || !(o.govern.goal.ms_per_frame || o.govern.goal.error),
+            "--samples: chosen by --time-per-frame or --error; leave out one of them",
+            ExitCode::usage);
     require(!o.scene.empty(), "replay: --scene is missing: a scene file, as apps/demo/scene.json",
             ExitCode::usage);
     require(o.explain || !o.out.empty(), "replay: --out is missing: the folder to write",
@@ -205,10 +241,19 @@ int run(const ReplayOptions& o) {
         return 0;
     }
     catch_interrupts();
-    const RunDescription description = description_of(o, file, settings, plan);
+    RunDescription description = description_of(o, file, settings, plan);
+    add_choices_before(o, recording.info, description);
     ReplayOutput output = open_output(o.out, recording.info, description, o.resume);
+    GovernedRun governed = start_governed(settings.trace, o.govern.goal,
+                                          price_key(recording.info, description, o.common.threads),
+                                          description.choices);
     Totals totals;
-    if (!play(session, recording, frames, output, o, totals)) {
+    const bool finished = play(session, recording, frames, output, governed, o, totals);
+    if (!governed.choices.empty()) {
+        description.choices = governed.choices;
+        write_run_file(o.out, recording.info, description);
+    }
+    if (!finished) {
         spdlog::warn("interrupted; finished frames stay, go on with --resume");
         return int(ExitCode::interrupted);
     }
@@ -225,6 +270,7 @@ std::function<int()> add_replay(CLI::App& subcommand) {
     add_recording_options(subcommand, o->recording);
     add_common_options(subcommand, o->common);
     add_render_options(subcommand, o->render);
+    add_govern_options(subcommand, o->govern);
     subcommand.add_option("--scene", o->scene, "the scene file: objects and light");
     subcommand.add_option("--out", o->out, "the folder to write");
     subcommand.add_option("--slam", o->slam, "voxels and iterations: fast or accurate")

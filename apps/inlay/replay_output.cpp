@@ -93,7 +93,7 @@ ReplayOutput open_output(const fs::path& folder, const RecordingInfo& recording,
 }
 
 FrameReport write_frame(ReplayOutput& output, const RgbdFrame& frame, const OutputFrame& composed,
-                        double load_ms) {
+                        const FrameNotes& notes) {
     StopWatch watch;
     const NamedLayers named = named_layers(composed, output.layers);
     ExrFile exr;
@@ -105,7 +105,8 @@ FrameReport write_frame(ReplayOutput& output, const RgbdFrame& frame, const Outp
     write_png(picture_file(output.folder, frame.index), composed.composite.display);
     FrameReport report = report_of(frame.index, frame.time, composed);
     StageTimes& ms = report.ms;
-    ms.load = load_ms;
+    report.governor = notes.governor;
+    ms.load = notes.load_ms;
     ms.write = watch.lap();
     ms.total = ms.load + ms.slam + ms.plan + ms.trace + ms.filter + ms.composite + ms.write;
     append_report(output.folder / "frames.jsonl", report);

@@ -7,6 +7,7 @@
 #include "apps/inlay/run_file.h"
 
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -25,9 +26,15 @@ struct ReplayOutput {
 ReplayOutput open_output(const std::filesystem::path& folder, const RecordingInfo& recording,
                          const RunDescription& run, bool resume);
 
+/// What a frame's report says beside what the frame itself tells.
+struct FrameNotes {
+    double load_ms = 0;
+    std::optional<GovernedFrame> governor;
+};
+
 /// Writes one frame's files, then its line; returns the line's report.
 FrameReport write_frame(ReplayOutput& output, const RgbdFrame& frame, const OutputFrame& composed,
-                        double load_ms);
+                        const FrameNotes& notes);
 
 /// What a frame's line says; without the times of loading and writing.
 FrameReport report_of(int frame, double time, const OutputFrame& composed);

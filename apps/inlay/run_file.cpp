@@ -1,5 +1,6 @@
 #include "apps/inlay/run_file.h"
 
+#include "composite/accuracy/machine.h"
 #include "composite/plan/explain.h"
 #include "composite/write/atomic_file.h"
 #include "composite/write/file_content.h"
@@ -8,7 +9,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <exception>
+#include <initializer_list>
 #include <optional>
+#include <stdexcept>
 
 namespace inlay {
 namespace {
@@ -55,20 +60,33 @@ Json describe_scene(const RunDescription& run) {
             {"files", files}};
 }
 
+Json describe_governor(const RunDescription& run) {
+    Json choices = Json::object();
+    for (const auto& [frame, samples] : run.choices)
+        choices[std::to_string(frame)] = samples;
+    const auto number = [](const std::optional<double>& v) { return v ? Json(*v) : Json(); };
+    return {{"time_per_frame_ms", number(run.goal.ms_per_frame)},
+            {"error", number(run.goal.error)},
+            {"choices", choices}};
+}
+
 Json describe(const RecordingInfo& recording, const RunDescription& run) {
     Json settings;
     for (const SettingRow& row : setting_rows())
         settings[row.name] = row.get(run.settings);
-    return {{"version", INLAY_VERSION},
-            {"command", run.command},
-            {"frames", run.frames},
-            {"shard", run.shard},
-            {"assets", run.asset_folders},
-            {"scene", describe_scene(run)},
-            {"settings", settings},
-            {"layers", run.layers},
-            {"recording", describe(recording)},
-            {"plan", Json::parse(to_json_text(run.plan))}};
+    Json json{{"version", INLAY_VERSION},
+              {"command", run.command},
+              {"frames", run.frames},
+              {"shard", run.shard},
+              {"assets", run.asset_folders},
+              {"scene", describe_scene(run)},
+              {"settings", settings},
+              {"layers", run.layers},
+              {"recording", describe(recording)},
+              {"plan", Json::parse(to_json_text(run.plan))}};
+    if (run.goal.ms_per_frame || run.goal.error || !run.choices.empty())
+        json["governor"] = describe_governor(run);
+    return json;
 }
 
 std::string shown(const Json& value) {
@@ -89,17 +107,37 @@ std::optional<std::string> difference(const Json& before, const Json& now,
     return name + " has another order";
 }
 
-void require_same_run(const fs::path& file, const Json& now) {
-    const Json before = Json::parse(content_of(file), nullptr, /*allow_exceptions=*/false);
-    require(before.is_object(),
-            file.string() + ": not valid JSON, so the run cannot be resumed; choose another --out");
-    for (const char* key : {"version", "recording", "scene", "settings", "layers"}) {
+Json read_run(const fs::path& file) {
+    Json json = Json::parse(content_of(file), nullptr, /*allow_exceptions=*/false);
+    require(json.is_object(),
+            file.string() + ": not valid JSON, so it says nothing of its run; choose another file");
+    return json;
+}
+
+void require_same_run(const fs::path& file, const Json& before, const Json& now,
+                      std::initializer_list<const char*> members) {
+    for (const char* key : members) {
         const auto found = difference(before.value(key, Json()), now[key], key);
         require(!found,
                 file.string() + ": this run was made with other " + key + ": " +
-                    found.value_or("") + "; resume with the same, or choose another --out",
+                    found.value_or("") + "; go on with the same, or choose another --out",
                 ExitCode::usage);
     }
+}
+
+/// Throws std::exception where it is none.
+std::map<int, int> choices_from(const Json& json) {
+    const std::vector<int> ladder = sample_ladder();
+    std::map<int, int> choices;
+    for (const auto& [frame, samples] : json.items()) {
+        std::size_t end = 0;
+        const int number = std::stoi(frame, &end);
+        if (end != frame.size() || !samples.is_number_integer() ||
+            !std::binary_search(ladder.begin(), ladder.end(), samples.get<int>()))
+            throw std::invalid_argument(frame);
+        choices[number] = samples.get<int>();
+    }
+    return choices;
 }
 
 }  // namespace
@@ -109,11 +147,45 @@ std::string name_of(const RecordingInfo& recording) {
     return (path.has_filename() ? path : path.parent_path()).filename().string();
 }
 
+GovernedBefore read_governed(const fs::path& file, const RecordingInfo& recording,
+                             const RunDescription& run) {
+    const Json json = read_run(file);
+    if (!json.contains("governor")) return {};
+    require_same_run(file, json, describe(recording, run),
+                     {"version", "recording", "scene", "settings"});
+    try {
+        const Json& governor = json.at("governor");
+        const auto number = [&](const char* key) {
+            const Json& value = governor.at(key);
+            return value.is_null() ? std::nullopt : std::optional(value.get<double>());
+        };
+        return {{number("time_per_frame_ms"), number("error")},
+                choices_from(governor.at("choices"))};
+    } catch (const std::exception&) {
+        throw Error(ExitCode::bad_data,
+                    file.string() +
+                        ": governor: expected time_per_frame_ms, error and choices, "
+                        "the samples of each frame; make the run again");
+    }
+}
+
+std::string price_key(const RecordingInfo& recording, const RunDescription& run, int threads) {
+    const Json all = describe(recording, run);
+    const Machine machine = this_machine();
+    const Json key{{"version", all["version"]},     {"cpu", machine.cpu},
+                   {"cores", machine.threads},      {"threads", threads},
+                   {"recording", all["recording"]}, {"scene", all["scene"]},
+                   {"settings", all["settings"]}};
+    return key.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 void write_run_file(const fs::path& folder, const RecordingInfo& recording,
                     const RunDescription& run) {
     const Json description = describe(recording, run);
     const fs::path file = folder / "run.json";
-    if (fs::exists(file)) require_same_run(file, description);
+    if (fs::exists(file))
+        require_same_run(file, read_run(file), description,
+                         {"version", "recording", "scene", "settings", "layers"});
     write_text(file, description.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 

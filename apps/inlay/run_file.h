@@ -1,12 +1,14 @@
 // run.json: what makes a replay the run that it is, and what a resumed one must have in common.
 #pragma once
 
+#include "composite/govern/governor.h"
 #include "composite/plan/effect_plan.h"
 #include "composite/session/settings.h"
 #include "recordings/readers/recording.h"
 #include "render/scene/scene_file.h"
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,10 +25,26 @@ struct RunDescription {
     Settings settings;
     std::vector<std::string> layers;
     EffectPlan plan;
+    Goal goal;                   // of a governor; neither: none
+    std::map<int, int> choices;  // samples of each frame, where a governor chooses or has chosen
 };
 
 /// The name of the recording's folder, whether or not its path was given with a slash at its end.
 std::string name_of(const RecordingInfo& recording);
+
+/// What a governor was asked for and chose in the run that `file`, a run.json, describes: nothing
+/// where it had none. Throws Error: input_missing; bad_data for a file that cannot be understood;
+/// usage where its recording, scene or settings are not those of `run`.
+struct GovernedBefore {
+    Goal goal;
+    std::map<int, int> choices;
+};
+GovernedBefore read_governed(const std::filesystem::path& file, const RecordingInfo& recording,
+                             const RunDescription& run);
+
+/// Names all that the prices of a run's samples depend on: the machine with `threads` of its cores,
+/// the program, the recording, the scene and the settings.
+std::string price_key(const RecordingInfo& recording, const RunDescription& run, int threads);
 
 /// Writes run.json of an output folder. One that is there already must describe the same recording,
 /// scene with the contents of its files, settings and layers. Throws Error: usage, naming what

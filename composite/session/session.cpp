@@ -7,23 +7,6 @@
 #include <utility>
 
 namespace inlay {
-namespace {
-
-NoisyLayers sample(Session& session, const RealScene& real, const RgbdFrame& frame,
-                   OutputFrame& out) {
-    const EmbreeScene objects =
-        session.virtual_structures.place(session.scene, frame.time, /*real=*/false);
-    const bool lit = out.plan.has("environment_direct");
-    const TwoModeScene scene{frame.lens, real.surface->world_from_camera, real.geometry, objects,
-                             lit ? session.environment : session.no_light};
-    const SamplingSettings sampling = planned_sampling(out.plan, session.settings.trace);
-    TwoModeResult result = sample_two_modes(scene, sampling, std::uint32_t(frame.index));
-    out.rays = result.rays;
-    out.dropped_samples = result.layers.dropped_samples;
-    return std::move(result.layers);
-}
-
-}  // namespace
 
 Session start_session(const Settings& settings, VirtualScene scene, EnvironmentMap environment) {
     validate(settings);
@@ -37,6 +20,16 @@ Session start_session(const Settings& settings, VirtualScene scene, EnvironmentM
     session.no_light = no_light();
     session.slam = start_slam(settings.slam);
     return session;
+}
+
+TwoModeResult sample(Session& session, const RealScene& real, const RgbdFrame& frame,
+                     const EffectPlan& plan, const SamplingSettings& settings) {
+    const EmbreeScene objects =
+        session.virtual_structures.place(session.scene, frame.time, /*real=*/false);
+    const bool lit = plan.has("environment_direct");
+    const TwoModeScene scene{frame.lens, real.surface->world_from_camera, real.geometry, objects,
+                             lit ? session.environment : session.no_light};
+    return sample_two_modes(scene, planned_sampling(plan, settings), std::uint32_t(frame.index));
 }
 
 OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work) {
@@ -62,9 +55,12 @@ OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work) {
     out.ms.plan = watch.lap();
 
     if (out.plan.has("environment_indirect")) {
-        const RealScene real = describe_real_scene(std::move(slam.surface), photo.linear,
-                                                   session.slam, session.model, settings);
-        session.previous = std::make_shared<const NoisyLayers>(sample(session, real, frame, out));
+        out.real = std::make_shared<const RealScene>(describe_real_scene(
+            std::move(slam.surface), photo.linear, session.slam, session.model, settings));
+        TwoModeResult sampled = sample(session, *out.real, frame, out.plan, settings.trace);
+        out.rays = sampled.rays;
+        out.dropped_samples = sampled.layers.dropped_samples;
+        session.previous = std::make_shared<const NoisyLayers>(std::move(sampled.layers));
         out.ms.trace = watch.lap();
     }
     if (work == FrameWork::sample) return out;

@@ -42,13 +42,18 @@ struct OutputFrame {
     TrackResult tracking;
     Composite composite;
     EffectPlan plan;
-    std::shared_ptr<const NoisyLayers> noisy;  // null where nothing was simulated
+    std::shared_ptr<const RealScene> real;     // null where nothing was simulated
+    std::shared_ptr<const NoisyLayers> noisy;  // null where `real` is
     Layers layers;
     Image<Rgb> camera;  // the photograph, linear
     RayCounts rays;
     std::uint64_t dropped_samples = 0;  // non-finite ones, left out of every mean
     StageTimes ms;
 };
+
+/// Samples `frame` against its real scene as `plan` says.
+TwoModeResult sample(Session& session, const RealScene& real, const RgbdFrame& frame,
+                     const EffectPlan& plan, const SamplingSettings& settings);
 
 /// One frame, from sensor to screen. Frames must come in order, from the recording's first.
 OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work);

@@ -52,6 +52,25 @@ Pose pose_from(const Json& numbers, const std::string& place) {
     return from_matrix(m);
 }
 
+Json to_json(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+Json to_json(const GovernedFrame& g) {
+    return {{"samples", g.samples},
+            {"expected_ms", to_json(g.expected_ms)},
+            {"expected_error", to_json(g.expected_error)},
+            {"estimated_error", to_json(g.estimated_error)},
+            {"check_ms", g.check_ms}};
+}
+
+GovernedFrame governed_from(const Json& json) {
+    const auto number = [&](const char* key) {
+        const Json& value = json.at(key);
+        return value.is_null() ? std::nullopt : std::optional(value.get<double>());
+    };
+    return {json.at("samples").get<int>(), number("expected_ms"), number("expected_error"),
+            number("estimated_error"), json.at("check_ms").get<double>()};
+}
+
 std::string whole_text(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     require(stream.is_open(), file.string() + ": cannot be opened for reading",
@@ -100,32 +119,33 @@ const char* name_of(TrackingStatus status) {
 }
 
 std::string to_json_line(const FrameReport& r) {
-    const Json json{{"frame", r.frame},
-                    {"time_s", r.time},
-                    {"tracking", name_of(r.tracking)},
-                    {"world_from_camera", to_json(r.world_from_camera)},
-                    {"ms",
-                     {{"load", r.ms.load},
-                      {"slam", r.ms.slam},
-                      {"plan", r.ms.plan},
-                      {"trace", r.ms.trace},
-                      {"filter", r.ms.filter},
-                      {"composite", r.ms.composite},
-                      {"write", r.ms.write},
-                      {"total", r.ms.total}}},
-                    {"rays",
-                     {{"primary", r.rays.primary},
-                      {"virtual_shadow", r.rays.virtual_shadow},
-                      {"virtual_indirect", r.rays.virtual_indirect},
-                      {"real_shadow", r.rays.real_shadow},
-                      {"real_indirect", r.rays.real_indirect}}},
-                    {"pixels",
-                     {{"virtual", r.pixels.virtual_},
-                      {"influenced", r.pixels.influenced},
-                      {"skipped", r.pixels.skipped}}},
-                    {"dropped_samples", r.dropped_samples},
-                    {"replaced_pixels", r.replaced_pixels},
-                    {"plan", r.plan}};
+    Json json{{"frame", r.frame},
+              {"time_s", r.time},
+              {"tracking", name_of(r.tracking)},
+              {"world_from_camera", to_json(r.world_from_camera)},
+              {"ms",
+               {{"load", r.ms.load},
+                {"slam", r.ms.slam},
+                {"plan", r.ms.plan},
+                {"trace", r.ms.trace},
+                {"filter", r.ms.filter},
+                {"composite", r.ms.composite},
+                {"write", r.ms.write},
+                {"total", r.ms.total}}},
+              {"rays",
+               {{"primary", r.rays.primary},
+                {"virtual_shadow", r.rays.virtual_shadow},
+                {"virtual_indirect", r.rays.virtual_indirect},
+                {"real_shadow", r.rays.real_shadow},
+                {"real_indirect", r.rays.real_indirect}}},
+              {"pixels",
+               {{"virtual", r.pixels.virtual_},
+                {"influenced", r.pixels.influenced},
+                {"skipped", r.pixels.skipped}}},
+              {"dropped_samples", r.dropped_samples},
+              {"replaced_pixels", r.replaced_pixels},
+              {"plan", r.plan}};
+    if (r.governor) json["governor"] = to_json(*r.governor);
     return json.dump();
 }
 
@@ -154,6 +174,7 @@ FrameReport from_json_line(const std::string& line, const std::string& place) {
         r.dropped_samples = count(json, "dropped_samples");
         r.replaced_pixels = count(json, "replaced_pixels");
         r.plan = json.at("plan").get<std::vector<std::string>>();
+        if (json.contains("governor")) r.governor = governed_from(json.at("governor"));
         return r;
     } catch (const nlohmann::json::exception& e) {
         throw Error(ExitCode::bad_data, place + ": is no frame report (" + e.what() +

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,14 @@ struct PixelCounts {
     std::uint64_t skipped = 0;     // no real-geometry ray was traced
 };
 
+/// What a governor chose for a frame, and what it expected; expectations only where it did choose.
+struct GovernedFrame {
+    int samples = 0;  // light samples per pixel
+    std::optional<double> expected_ms{}, expected_error{};
+    std::optional<double> estimated_error{};  // without truth, in the frames that are checked
+    double check_ms = 0;                      // what the estimate took, beside the frame's own time
+};
+
 /// "tracked", "weak" or "lost", as the files of a run have it.
 const char* name_of(TrackingStatus status);
 
@@ -37,6 +46,7 @@ struct FrameReport {
     std::uint64_t dropped_samples = 0;  // not finite, left out of every mean
     std::uint64_t replaced_pixels = 0;  // a term was not finite: the photograph stands in
     std::vector<std::string> plan{};    // the effects that were simulated
+    std::optional<GovernedFrame> governor{};
 };
 
 /// One line of JSON without its line end; numbers read back to the same bits.

@@ -8,6 +8,7 @@
 #include "render/filter/sampled_change.h"
 #include "render/filter/shadow_ratio.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -129,6 +130,15 @@ const Irradiance& light_of(const NoisyLayers& layers, LightKind kind) {
     return kind == LightKind::direct ? layers.direct : layers.indirect;
 }
 
+/// px, lower bound of sigma. With more samples it falls as the width itself does, but not for light
+/// whose two modes share their noise: there it must hide what few bright samples leave (a hot texel
+/// behind an occluder's edge).
+double narrowest_width(const NoisyLayers& frame, bool real, const FilterSettings& settings) {
+    const bool shared = real && !sampled_apart(frame);
+    return settings.narrowest_width *
+           (shared ? 1.0 : std::min(1.0, sample_factor(frame.samples, settings)));
+}
+
 /// Smooths the named layers of one kind of light; returns 1 / sigma per pixel.
 Image<float> smooth_light(const Frames& frames, const Receivers& receivers,
                           std::span<const Layer> layers, LightKind kind, Layers& result) {
@@ -159,7 +169,7 @@ Image<float> smooth_light(const Frames& frames, const Receivers& receivers,
                            frames.environment_bandwidth,
                            nullptr,
                            real ? frame.samples : samples_on_virtual(frame),
-                           frames.settings.narrowest_width,
+                           narrowest_width(frame, real, frames.settings),
                            as_ratio};
     };
     const LightLimits limits = limits_of(frames.now);

@@ -178,19 +178,20 @@ void refine(const TilePass& pass) {
 
 void sample_tile(const TilePass& pass) {
     const SamplingSettings& settings = pass.settings;
+    const bool apart = settings.estimator == Estimator::difference;
     std::vector<Landings> seen;
+    if (apart) seen.reserve(std::size_t(settings.primary));
     for (int p = 0; p < settings.primary; ++p) {
-        seen.push_back(pass.land_at(p));
-        const Landings& landings = seen.back();
+        const Landings landings = pass.land_at(p);
+        if (apart) seen.push_back(landings);
         pass.for_each_lane([&](std::size_t lane, PixelSums& sums) {
             look(landings[lane], sums);
             if (landings[lane].kind != LandingKind::nothing) receive(landings[lane], sums);
         });
         gather_light(pass, landings, p);
     }
-    if (settings.estimator == Estimator::difference)
-        for (int p = 0; p < settings.primary; ++p)
-            pass.add_real_light(seen[std::size_t(p)], p);
+    for (std::size_t p = 0; p < seen.size(); ++p)  // once the whole change is known
+        pass.add_real_light(seen[p], int(p));
     if (sees_virtual(pass.tile)) refine(pass);
 }
 

@@ -15,7 +15,7 @@ namespace inlay {
 /// How the light on real surfaces is sampled in both modes.
 enum class Estimator {
     two_mode,   // E_R and E_RV from the same samples (Mehta 2015, ch. 6)
-    difference  // E_RV - E_R from samples of its own, drawn towards virtual geometry; E_R from few
+    difference  // E_RV - E_R from samples of its own, drawn towards virtual geometry; then E_R
 };
 
 struct SamplingSettings {

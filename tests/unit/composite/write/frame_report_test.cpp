@@ -64,6 +64,19 @@ TEST(FrameReport, ReadsBackToTheSameBits) {
     EXPECT_EQ(to_json_line(read), to_json_line(written));
 }
 
+TEST(FrameReport, AGovernorsChoiceReadsBackWithWhatItLeavesOpen) {
+    FrameReport written = some_report(3);
+    EXPECT_FALSE(from_json_line(to_json_line(written), "line 1").governor);
+    written.governor = GovernedFrame{20, 300.0 / 7, {}, 1e-3 / 3, 41.5};
+    const FrameReport read = from_json_line(to_json_line(written), "line 1");
+    ASSERT_TRUE(read.governor);
+    EXPECT_EQ(read.governor->samples, 20);
+    EXPECT_EQ(read.governor->expected_ms, 300.0 / 7);
+    EXPECT_FALSE(read.governor->expected_error);
+    EXPECT_EQ(read.governor->estimated_error, 1e-3 / 3);
+    EXPECT_EQ(to_json_line(read), to_json_line(written));
+}
+
 TEST(FrameReports, AreReadInTheOrderOfTheFile) {
     const TemporaryFolder folder;
     for (const int frame : {4, 5, 9})
