@@ -25,7 +25,7 @@ struct Choice {
 
 /// What became of it.
 struct Reached {
-    double sampling_ms = 0;       // tracing and filtering; 0: nothing was simulated
+    double sampling_ms = 0;       // tracing and filtering; 0: it teaches nothing of these
     double other_ms = 0;          // the rest of the frame
     std::optional<double> error;  // estimated, over the front's at the samples that were estimated
 };

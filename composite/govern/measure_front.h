@@ -24,8 +24,8 @@ bool shows_anything(const OutputFrame& out);
 /// 0.
 PriceFront measure_front(const FrameAtHand& at_hand);
 
-/// Error of the frame sampled anew with settings.trace's numbers, over that of `front` at as many
-/// samples. Nothing where nothing virtual shows, or the error is lost in noise.
+/// Error of the frame sampled anew, with as many samples as settings.trace has, over that of
+/// `front` there. Nothing where nothing virtual shows, or the error is lost in noise.
 std::optional<double> estimate_error_factor(const FrameAtHand& at_hand, const PriceFront& front);
 
 }  // namespace inlay

@@ -15,9 +15,10 @@ struct FilterSettings {
     double visibility_safety = 1.0;  // s_v, > 0; the smaller, the sharper next to occluders
     int rate_reach = 2;              // px, >= 0; see filled_rates; with corrected constants alone
     int kernel_radius = 15;          // px, >= 0, each way along a row and a column
-    double narrowest_width = 1.0;    // px, >= 0; lower bound of sigma
-    double narrowest_change = 0.6;   // px, >= 0; the same for a change sampled for itself, which is
-                                     // less noisy, with 16 samples
+    double narrowest_width = 1.0;    // px, >= 0; lower bound of sigma; beyond 16 samples it shrinks
+                                     // with them, but not where both modes share their noise
+    double narrowest_change = 0.6;   // px, >= 0; the same, at 16 samples, for a change sampled for
+                                     // itself, which is less noisy; it follows the samples
     double normal_stop_deg = 10.0;   // 0..90, exclusive; surfaces that turn further do not mix
     bool temporal = true;            // use the previous frame's unfiltered values
     double rejection_distance = 3.0;  // px, > 0; last frame's surface must lie within
