@@ -18,17 +18,13 @@ NoisyLayers ball_on_plane(int width, int height, std::uint32_t frame) {
     const Receiver nothing{objects, vectors, vectors, numbers, numbers};
     const Irradiance dark{black, black, black};
     const double f = 0.8 * width;
-    NoisyLayers n{{width, height, f, f, 0.5 * width, 0.5 * height},
-                  {},
-                  16,
-                  numbers,
-                  black,
-                  black,
-                  numbers,
-                  dark,
-                  dark,
-                  nothing,
-                  nothing};
+    NoisyLayers n;
+    n.lens = {width, height, f, f, 0.5 * width, 0.5 * height};
+    n.samples = 16;
+    n.m = n.glossy_bandwidth = numbers;
+    n.k_v = n.s_rv = black;
+    n.direct = n.indirect = dark;
+    n.real = n.virtual_ = nothing;
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const glm::vec3 ray(unproject(n.lens, {double(x), double(y)}));

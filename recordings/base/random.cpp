@@ -36,11 +36,19 @@ float to_unit(std::uint32_t bits) { return float(bits >> 8) * 0x1p-24f; }
 
 }  // namespace
 
-glm::vec2 stratified_pair(const SampleKey& k, std::uint32_t dimension) {
+StratifiedSet stratified_set(const SampleKey& k, std::uint32_t dimension) {
     const std::uint32_t set = hash(hash(hash(hash(k.seed), k.frame), k.pixel), dimension);
-    const std::uint32_t index = reverse_bits(permute_upwards(reverse_bits(k.sample), hash(set, 1)));
-    return {to_unit(reverse_bits(permute_upwards(index, hash(set, 2)))),
-            to_unit(reverse_bits(permute_upwards(reversed_sobol_second(index), hash(set, 3))))};
+    return {hash(set, 1), hash(set, 2), hash(set, 3)};
+}
+
+glm::vec2 StratifiedSet::at(std::uint32_t index) const {
+    const std::uint32_t shuffled = reverse_bits(permute_upwards(reverse_bits(index), order));
+    return {to_unit(reverse_bits(permute_upwards(shuffled, scramble_x))),
+            to_unit(reverse_bits(permute_upwards(reversed_sobol_second(shuffled), scramble_y)))};
+}
+
+glm::vec2 stratified_pair(const SampleKey& k, std::uint32_t dimension) {
+    return stratified_set(k, dimension).at(k.sample);
 }
 
 }  // namespace inlay

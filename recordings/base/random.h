@@ -33,9 +33,20 @@ inline float uniform(const SampleKey& k, std::uint32_t dimension) {
     return float(bits >> 8) * 0x1p-24f;
 }
 
-/// A point of the unit square that is well spread over the samples 0, 1, 2, ... of its pixel: the
-/// first two Sobol dimensions, Owen-scrambled by hashing (Laine and Karras 2011; Burley 2020).
-/// Different values of `dimension` give independent point sets.
+/// Points of the unit square, one for each index 0, 1, 2, ..., of which every run from the start is
+/// well spread: the first two Sobol dimensions, Owen-scrambled by hashing (Laine and Karras 2011;
+/// Burley 2020).
+struct StratifiedSet {
+    std::uint32_t order = 0, scramble_x = 0, scramble_y = 0;  // seeds
+
+    glm::vec2 at(std::uint32_t index) const;
+};
+
+/// The set of a pixel (`k.sample` is not used); different values of `dimension` give independent
+/// ones.
+StratifiedSet stratified_set(const SampleKey& k, std::uint32_t dimension);
+
+/// Point `k.sample` of its pixel's set.
 glm::vec2 stratified_pair(const SampleKey& k, std::uint32_t dimension);
 
 }  // namespace inlay

@@ -21,10 +21,12 @@ struct ChangeCones {
     float hemisphere = 0;  // share of the samples over the hemisphere, 0..1
     glm::vec3 normal{0.0f};
     float fill = 0;  // bound of the share of an even sky's irradiance that comes from them, 0..1
-    std::array<glm::vec3, most_change_cones> axis;  // unit
-    std::array<float, most_change_cones> height;    // 1 - cosine of the half angle, 0..1
-    std::array<float, most_change_cones> density;   // per steradian, of all samples together
-    std::array<float, most_change_cones> below;     // share of the samples in those before
+    // Planes, for all cones to be asked at once; up to the next multiple of 8 they hold cones that
+    // no direction is in.
+    std::array<float, most_change_cones> axis_x, axis_y, axis_z;  // of a unit vector
+    std::array<float, most_change_cones> height;   // 1 - cosine of the half angle, 0..1
+    std::array<float, most_change_cones> density;  // per steradian, of all samples together
+    std::array<float, most_change_cones> below;    // share of the samples in those before
 
     bool empty() const { return count == 0 && hemisphere == 0; }
 };

@@ -172,23 +172,22 @@ Try try_light(const Search& search, std::size_t lane, int number) {
 
 void try_lights(Search& search) {
     const int tries = search.change.counts.light;
-    for (int n = 0; n < tries; ++n)
-        for (std::size_t lane = 0; lane < packet_width; ++lane)
-            if (!search.cones[lane].empty())
-                follow_try(search, try_light(search, lane, search.change.ray * tries + n), shadows);
+    for (std::size_t lane = 0; lane < packet_width; ++lane) {
+        if (search.cones[lane].empty()) continue;
+        for (int n = 0; n < tries; ++n)
+            follow_try(search, try_light(search, lane, search.change.ray * tries + n), shadows);
+    }
     follow_rest(search, shadows);
 }
 
-Try try_cone(const Search& search, std::size_t lane, int number, const Half& half) {
-    SampleKey key = search.pass.keys[lane];
-    key.sample = std::uint32_t(number);
+Try try_cone(const Search& search, std::size_t lane, const StratifiedSet& points, int number) {
     const DirectionSample drawn =
-        sample_cones(search.cones[lane], stratified_pair(key, half.dimension));
+        sample_cones(search.cones[lane], points.at(std::uint32_t(number)));
     if (!(drawn.pdf > 0)) return {};
     const LightSample light = sample_along(search.pass.scene.environment, drawn.direction);
     const float cosine = glm::dot(search.pass.landings[lane].normal, drawn.direction);
     return {lane,
-            key.sample,
+            std::uint32_t(number),
             drawn.direction,
             weighted(search, lane, light, drawn.pdf),
             cosine / (0.5f * search.by_cones[lane] * drawn.pdf),
@@ -199,23 +198,16 @@ Try try_cone(const Search& search, std::size_t lane, int number, const Half& hal
 /// One half of the tries over the cones: whole numbers of them, whose sum over a pixel's rays is
 /// rounded up or down at random to the right mean.
 void try_cones(Search& search, const Half& half) {
-    std::array<int, packet_width> next{}, end{};
     for (std::size_t lane = 0; lane < packet_width; ++lane) {
         if (search.cones[lane].empty()) continue;
         SampleKey key = search.pass.keys[lane];
         key.sample = 0;  // one rounding for all rays of the pixel
         const float rounding = uniform(key, half.dimension);
         const float before = search.pass.sums[lane].change.cone_tries;
-        next[lane] = int(before + rounding);
-        end[lane] = int(before + 0.5f * search.by_cones[lane] + rounding);
-    }
-    for (bool more = true; more;) {
-        more = false;
-        for (std::size_t lane = 0; lane < packet_width; ++lane) {
-            if (next[lane] >= end[lane]) continue;
-            follow_try(search, try_cone(search, lane, next[lane]++, half), half.follow);
-            more = true;
-        }
+        const int end = int(before + 0.5f * search.by_cones[lane] + rounding);
+        const StratifiedSet points = stratified_set(key, half.dimension);
+        for (int number = int(before + rounding); number < end; ++number)
+            follow_try(search, try_cone(search, lane, points, number), half.follow);
     }
     follow_rest(search, half.follow);
 }

@@ -151,6 +151,7 @@ EmbreeScene& EmbreeScene::operator=(EmbreeScene&&) noexcept = default;
 
 HitPacket EmbreeScene::intersect(const RayPacket& rays) const {
     HitPacket hits;
+    if (log_) log_->queries.push_back({rays, true});
     if (!handles_ || rays.active == 0) return hits;
     alignas(64) std::array<int, packet_width> valid;
     alignas(64) RTCRayHit16 query;
@@ -172,6 +173,7 @@ HitPacket EmbreeScene::intersect(const RayPacket& rays) const {
 }
 
 std::uint32_t EmbreeScene::occluded(const RayPacket& rays) const {
+    if (log_) log_->queries.push_back({rays, false});
     if (!handles_ || rays.active == 0) return 0;
     alignas(64) std::array<int, packet_width> valid;
     alignas(64) RTCRay16 query;

@@ -46,6 +46,15 @@ struct SurfaceHit {
 
 using HitPacket = std::array<SurfaceHit, packet_width>;
 
+/// What a scene was asked, in that order, for a bench to ask it of Embree alone. For one thread.
+struct RayLog {
+    struct Query {
+        RayPacket rays;
+        bool nearest;  // else any hit
+    };
+    std::vector<Query> queries;
+};
+
 /// What a hit is made of, in world space.
 struct SurfacePoint {
     glm::vec3 position;          // m
@@ -84,12 +93,16 @@ public:
     SurfacePoint surface_point(const SurfaceHit& hit, const glm::vec3& origin,
                                const glm::vec3& direction) const;
 
+    /// Writes down all that is asked from now on; null: no more.
+    void log_to(RayLog* log) { log_ = log; }
+
 private:
     friend class EmbreeSceneCache;
     struct Handles;
     std::unique_ptr<Handles> handles_;
     std::vector<PlacedPart> parts_;
     std::vector<BoundingSphere> bounds_;
+    RayLog* log_ = nullptr;
 };
 
 /// Keeps the acceleration structure of each mesh, so that a frame only places them anew.

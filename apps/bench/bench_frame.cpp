@@ -1,0 +1,180 @@
+// What sampling a real frame costs beside what Embree alone needs for rays: the thesis's, traced as
+// two full scenes, and exactly those that the sampler traced.
+//
+//   bench_frame [RECORDING FRAME SCENE] [options of Google Benchmark]
+#include "composite/accuracy/unit.h"
+#include "recordings/base/parallel.h"
+
+#include "apps/bench/bare_embree.h"
+#include "apps/bench/thesis_rays.h"
+#include <benchmark/benchmark.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace inlay {
+namespace {
+
+/// One frame of a recording, tracked, with its objects in place.
+struct Subject {
+    Settings settings;
+    Work work;
+    TrackedFrame frame;
+    EmbreeScene objects;
+
+    SamplingSettings sampling(Estimator estimator) const {
+        SamplingSettings result = settings.trace;
+        result.depth_tolerance = frame.depth_tolerance;
+        result.estimator = estimator;
+        return result;
+    }
+    TwoModeResult sample(const SamplingSettings& sampling) const {
+        return sample_two_modes(
+            {frame.lens, frame.world_from_camera, frame.geometry, objects, work.environment},
+            sampling, std::uint32_t(frame.frame));
+    }
+};
+
+Subject open_subject(const std::filesystem::path& recording, int frame,
+                     const std::filesystem::path& scene, RealGeometryKind kind) {
+    Settings settings;
+    settings.geometry.kind = kind;
+    Work work = open_work(recording, settings, scene);
+    TrackedFrame tracked = track_frames(work, {frame}, settings).at(0);
+    EmbreeScene objects = EmbreeSceneCache().place(work.scene, tracked.time, /*real=*/false);
+    return {settings, std::move(work), std::move(tracked), std::move(objects)};
+}
+
+/// The rays that the sampler sends for the subject's frame, against each kind of geometry.
+struct OwnRays {
+    BareRays on_virtual, on_real;
+};
+
+OwnRays own_rays(Subject& subject, const SamplingSettings& sampling) {
+    set_thread_count(1);  // a log is for one thread
+    RayLog on_virtual, on_real;
+    subject.objects.log_to(&on_virtual);
+    const RealGeometry plain = subject.frame.geometry;
+    RealGeometry& logged = subject.frame.geometry;
+    logged.distances = [&](const RayPacket& rays) {
+        on_real.queries.push_back({rays, true});
+        return plain.distances(rays);
+    };
+    logged.occluded = [&](const RayPacket& rays) {
+        on_real.queries.push_back({rays, false});
+        return plain.occluded(rays);
+    };
+    logged.radiances = [&](const RayPacket& rays, const SampleKeys& keys) {
+        on_real.queries.push_back({rays, true});
+        return plain.radiances(rays, keys);
+    };
+    subject.sample(sampling);
+    subject.frame.geometry = plain;
+    subject.objects.log_to(nullptr);
+    return {bare_rays(on_virtual), bare_rays(on_real)};
+}
+
+/// Best times by name, in ms: what the ratios at the end are made of.
+std::map<std::string, double>& best_times() {
+    static std::map<std::string, double> times;
+    return times;
+}
+
+void add_benchmark(const std::string& name, int threads, std::uint64_t rays,
+                   const std::function<void()>& body) {
+    benchmark::RegisterBenchmark(
+        name.c_str(),
+        [=](benchmark::State& state) {
+            set_thread_count(threads);
+            double best = 1e300;
+            for (auto _ : state) {
+                const auto start = std::chrono::steady_clock::now();
+                body();
+                const std::chrono::duration<double> s = std::chrono::steady_clock::now() - start;
+                state.SetIterationTime(s.count());
+                best = std::min(best, 1e3 * s.count());
+            }
+            best_times()[name] = best;
+            state.counters["rays"] = benchmark::Counter(double(rays));
+            state.counters["rays/s"] =
+                benchmark::Counter(double(rays), benchmark::Counter::kIsIterationInvariantRate);
+        })
+        ->Unit(benchmark::kMillisecond)
+        ->UseManualTime()
+        ->Iterations(5);
+}
+
+/// The sampler, and Embree alone with the same rays.
+void add_sampler(const std::string& name, Subject& subject, const SamplingSettings& sampling,
+                 const BareScene& on_real, const BareScene& on_virtual) {
+    const auto rays = std::make_shared<const OwnRays>(own_rays(subject, sampling));
+    const std::uint64_t count = rays->on_real.rays + rays->on_virtual.rays;
+    const auto sample = [&subject, sampling] {
+        benchmark::DoNotOptimize(subject.sample(sampling));
+    };
+    add_benchmark(name, 2, count, sample);
+    add_benchmark(name + "/1 thread", 1, count, sample);
+    add_benchmark(name + "/its rays alone", 2, count, [rays, &on_real, &on_virtual] {
+        benchmark::DoNotOptimize(trace_bare(on_real, rays->on_real));
+        benchmark::DoNotOptimize(trace_bare(on_virtual, rays->on_virtual));
+    });
+}
+
+void print_ratio(const std::string& above, const std::string& below) {
+    const auto& times = best_times();
+    const auto a = times.find(above), b = times.find(below);
+    if (a == times.end() || b == times.end()) return;
+    std::cout << above << " / " << below << ": " << a->second / b->second << "\n";
+}
+
+int run(int argc, char** argv) {
+    std::vector<std::string> words(argv + 1, argv + argc);
+    const bool named = words.size() >= 3 && words[0].rfind("--", 0) != 0;
+    const std::filesystem::path recording = named ? words[0] : INLAY_DEMO_RECORDING;
+    const int number = named ? std::stoi(words[1]) : 10;
+    const std::filesystem::path scene = named ? words[2] : INLAY_DEMO_SCENE;
+    Subject subject = open_subject(recording, number, scene, RealGeometryKind::model);
+    Subject marched = open_subject(recording, number, scene, RealGeometryKind::screen);
+    std::cout << recording.string() << ", frame " << number << ", " << subject.frame.lens.width
+              << " x " << subject.frame.lens.height << " px\n";
+
+    const EmbreeScene& room = *subject.frame.room->mesh;
+    const BareScene real({&room}), objects({&subject.objects}), all({&room, &subject.objects});
+    const auto in_real =
+        std::make_shared<const BareRays>(thesis_rays(subject.work, subject.frame, nullptr, real));
+    const auto in_all = std::make_shared<const BareRays>(
+        thesis_rays(subject.work, subject.frame, &subject.objects, all));
+    add_benchmark("two scenes", 2, in_real->rays + in_all->rays, [&, in_real, in_all] {
+        benchmark::DoNotOptimize(trace_bare(real, *in_real));
+        benchmark::DoNotOptimize(trace_bare(all, *in_all));
+    });
+    SamplingSettings everything = subject.sampling(Estimator::two_mode);
+    everything.coverage = 0;
+    everything.virtual_repeats = 1;  // the thesis's samples, one for one
+    add_sampler("two modes", subject, everything, real, objects);
+    add_sampler("difference", subject, subject.sampling(Estimator::difference), real, objects);
+    add_benchmark("difference on screen", 2, 0, [&marched] {
+        benchmark::DoNotOptimize(marched.sample(marched.sampling(Estimator::difference)));
+    });
+
+    benchmark::Initialize(&argc, argv);
+    benchmark::RunSpecifiedBenchmarks();
+    std::cout << "\n";
+    for (const std::string name : {"two modes", "difference"}) {
+        print_ratio(name, "two scenes");
+        print_ratio(name, name + "/its rays alone");
+        print_ratio(name + "/1 thread", name);
+    }
+    return EXIT_SUCCESS;
+}
+
+}  // namespace
+}  // namespace inlay
+
+int main(int argc, char** argv) { return inlay::run(argc, argv); }
