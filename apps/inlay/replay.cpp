@@ -235,6 +235,7 @@ int run(const ReplayOptions& o) {
                         o.explain ? SceneUse::explain : SceneUse::simulate);
     if (settings.use_recorded_poses) warn_of_missing_poses(recording.info, frames);
     Session session = session_of(file, recording, settings);
+    session.settings.skip &= o.render.layers.empty();  // whoever asks for layers wants all of them
     const EffectPlan plan = plan_of(session, recording.info, file.requests);
     if (o.explain) {
         std::cout << explain(plan);

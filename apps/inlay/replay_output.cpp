@@ -49,7 +49,8 @@ std::uint64_t skipped_pixels(const OutputFrame& composed) {
     const NoisyLayers& noisy = *composed.noisy;
     std::uint64_t skipped = 0;
     for (std::size_t i = 0; i < noisy.m.pixels.size(); ++i)
-        skipped += noisy.real.object.pixels[i] == 0 &&
+        skipped += (noisy.real.object.pixels[i] == 0 ||
+                    (!noisy.sampled_real.empty() && noisy.sampled_real.pixels[i] == 0)) &&
                    (noisy.virtual_.object.empty() || noisy.virtual_.object.pixels[i] == 0);
     return skipped;
 }

@@ -59,18 +59,14 @@ bool finite(const Terms& t) {
            finite(t.e_rv_real) && finite(t.e_rv_virtual);
 }
 
-bool is_real_receiver(const Terms& t) {
-    return t.e_r != glm::dvec3(0) || t.e_rv_real != glm::dvec3(0);
-}
-
-/// Mean of E_R over the pixels that see a real receiver; 0 without any.
+/// Mean of E_R over the pixels in which virtual geometry changes it; 0 without any.
 glm::dvec3 mean_real_irradiance(const Layers& layers) {
     std::vector<RealIrradiance> rows(std::size_t(layers.m.height));
     parallel_rows(layers.m.height, [&](int y) {
         RealIrradiance& row = rows[std::size_t(y)];
         for (int x = 0; x < layers.m.width; ++x) {
             const Terms t = terms_at(layers, layers.m.index(x, y));
-            if (!finite(t) || !is_real_receiver(t)) continue;
+            if (!finite(t) || t.e_r == t.e_rv_real) continue;
             row.sum += t.e_r;
             ++row.pixels;
         }

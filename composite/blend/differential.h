@@ -18,7 +18,8 @@ enum class BlendForm {
 
 struct BlendSettings {
     BlendForm form = BlendForm::ratio;
-    float epsilon_share = 1e-3f;  // of the frame's mean E_R, added to both sides of the ratio; > 0
+    float epsilon_share = 1e-3f;  // of the mean E_R over the pixels where it changes, added to both
+                                  // sides of the ratio; > 0
     float max_ratio = 4.0f;       // the ratio's upper bound, >= 1
 };
 

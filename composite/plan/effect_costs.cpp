@@ -52,7 +52,7 @@ EffectCost cost_of_direct(const PlanInput& input) {
     if (s.estimator == Estimator::two_mode)
         return {{{"direct light", samples, 1}}, {0, samples, 0, samples, 0}};
     const double tries = s.light_tries * samples + s.primary * half_of_cones(s);
-    const double real = s.primary * most_real_light_samples(s);
+    const double real = most_real_light_samples(s);
     return {{{"directions tried for a change", tries, 1}, {"real direct light", real, 1}},
             {0, tries, 0, tries + real, 0}};
 }
@@ -64,8 +64,9 @@ EffectCost cost_of_indirect(const PlanInput& input) {
                     indirect_rays(input, samples)};
     cost.rays.primary = s.primary;
     if (s.estimator == Estimator::two_mode) return cost;
-    const double real = s.primary * most_real_light_samples(s);
+    const double real = most_real_light_samples(s);
     const double tries = s.primary * half_of_cones(s);
+    cost.rays.primary *= 2;  // once more for E_R, from where they land
     cost.passes = {{"camera rays", double(s.primary), 1},
                    {"directions tried for an exchange", tries, 1},
                    {"real indirect light", real, 1}};

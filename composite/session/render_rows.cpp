@@ -28,6 +28,7 @@ std::vector<SettingRow> render_rows() {
         row("trace.virtual_repeats", "per sample", INLAY_MEMBER(trace.virtual_repeats)),
         row("trace.light_tries", "per sample", INLAY_MEMBER(trace.light_tries)),
         row("trace.coverage", "rays per pixel", INLAY_MEMBER(trace.coverage)),
+        row("trace.skip", "on|off", INLAY_MEMBER(skip)),
         row("trace.seed", "", INLAY_MEMBER(trace.seed)),
         row("trace.depth_tolerance", "share of depth", INLAY_MEMBER(trace.depth_tolerance)),
         row("trace.occluder_floor", "share of depth", INLAY_MEMBER(trace.occluder_floor)),

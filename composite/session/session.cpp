@@ -3,10 +3,22 @@
 #include "composite/session/obey_plan.h"
 #include "composite/session/stop_watch.h"
 #include "render/filter/environment_bandwidth.h"
+#include "render/filter/light_demand.h"
 
 #include <utility>
 
 namespace inlay {
+namespace {
+
+/// What the composite shows of E_R, if the settings ask for no more. `previous` must outlive it.
+LightDemand demand_of(const Settings& settings, const NoisyLayers* previous) {
+    if (!settings.skip) return {};
+    return [&filter = settings.filter, previous](const auto& touched, const NoisyLayers& now) {
+        return light_demand(touched, now, previous, filter);
+    };
+}
+
+}  // namespace
 
 Session start_session(const Settings& settings, VirtualScene scene, EnvironmentMap environment) {
     validate(settings);
@@ -23,13 +35,15 @@ Session start_session(const Settings& settings, VirtualScene scene, EnvironmentM
 }
 
 TwoModeResult sample(Session& session, const RealScene& real, const RgbdFrame& frame,
-                     const EffectPlan& plan, const SamplingSettings& settings) {
+                     const EffectPlan& plan, const SamplingSettings& settings,
+                     const LightDemand& demand) {
     const EmbreeScene objects =
         session.virtual_structures.place(session.scene, frame.time, /*real=*/false);
     const bool lit = plan.has("environment_direct");
     const TwoModeScene scene{frame.lens, real.surface->world_from_camera, real.geometry, objects,
                              lit ? session.environment : session.no_light};
-    return sample_two_modes(scene, planned_sampling(plan, settings), std::uint32_t(frame.index));
+    return sample_two_modes(scene, planned_sampling(plan, settings), std::uint32_t(frame.index),
+                            demand);
 }
 
 OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work) {
@@ -57,7 +71,8 @@ OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work) {
     if (out.plan.has("environment_indirect")) {
         out.real = std::make_shared<const RealScene>(describe_real_scene(
             std::move(slam.surface), photo.linear, session.slam, session.model, settings));
-        TwoModeResult sampled = sample(session, *out.real, frame, out.plan, settings.trace);
+        TwoModeResult sampled = sample(session, *out.real, frame, out.plan, settings.trace,
+                                       demand_of(settings, previous.get()));
         out.rays = sampled.rays;
         out.dropped_samples = sampled.layers.dropped_samples;
         session.previous = std::make_shared<const NoisyLayers>(std::move(sampled.layers));

@@ -51,9 +51,10 @@ struct OutputFrame {
     StageTimes ms;
 };
 
-/// Samples `frame` against its real scene as `plan` says.
+/// Samples `frame` against its real scene as `plan` says, E_R where `demand` does.
 TwoModeResult sample(Session& session, const RealScene& real, const RgbdFrame& frame,
-                     const EffectPlan& plan, const SamplingSettings& settings);
+                     const EffectPlan& plan, const SamplingSettings& settings,
+                     const LightDemand& demand = {});
 
 /// One frame, from sensor to screen. Frames must come in order, from the recording's first.
 OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work);

@@ -40,6 +40,7 @@ struct Settings {
     SamplingSettings trace{.estimator = Estimator::difference, .depth_tolerance = 0.004f};
     FilterSettings filter{.real_curvature = false};  // eq. 6.2 takes real irradiances as a ratio
     BlendSettings blend;
+    bool skip = true;  // E_R only where the composite shows it: the same bytes for less work
 };
 
 /// Throws Error (usage) that names a setting which is out of range.

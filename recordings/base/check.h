@@ -35,4 +35,9 @@ inline void require(bool condition, const std::string& message,
     if (!condition) throw Error(code, message);
 }
 
+/// The same for a fixed text, which costs nothing unless it is thrown.
+inline void require(bool condition, const char* message, ExitCode code = ExitCode::bad_data) {
+    if (!condition) throw Error(code, message);
+}
+
 }  // namespace inlay

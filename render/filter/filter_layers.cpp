@@ -145,18 +145,19 @@ Image<float> smooth_light(const Frames& frames, const Receivers& receivers,
     const bool is_direct = kind == LightKind::direct;
     Irradiance& out = is_direct ? result.direct : result.indirect;
     const bool as_ratio = is_direct && frames.open_sky != nullptr;
+    const bool real = &receivers == &frames.real;
+    // E_R that was sampled for itself has little noise, and stays one frame's: what the frame before
+    // did not need, it need not have.
+    const NoisyLayers* previous = real && sampled_apart(frames.now) ? nullptr : frames.previous;
     std::vector<const Image<Rgb>*> now, before;
     for (const Layer layer : layers) {
         now.push_back(&(light_of(frames.now, kind).*layer));
-        if (frames.previous != nullptr)
-            before.push_back(&(light_of(*frames.previous, kind).*layer));
+        if (previous != nullptr) before.push_back(&(light_of(*previous, kind).*layer));
     }
     if (as_ratio) {
-        const auto unshadowed =
-            &receivers == &frames.real ? &Unshadowed::real : &Unshadowed::virtual_;
+        const auto unshadowed = real ? &Unshadowed::real : &Unshadowed::virtual_;
         now.push_back(&(frames.now.unshadowed.*unshadowed));
-        if (frames.previous != nullptr)
-            before.push_back(&(frames.previous->unshadowed.*unshadowed));
+        if (previous != nullptr) before.push_back(&(previous->unshadowed.*unshadowed));
     }
     if (receivers.now.empty) {
         for (const Layer layer : layers)
@@ -164,7 +165,6 @@ Image<float> smooth_light(const Frames& frames, const Receivers& receivers,
         return Image<float>(frames.now.lens.width, frames.now.lens.height);
     }
     const auto limits_of = [&](const NoisyLayers& frame) {
-        const bool real = &receivers == &frames.real;
         return LightLimits{kind,
                            frames.environment_bandwidth,
                            nullptr,
@@ -173,7 +173,7 @@ Image<float> smooth_light(const Frames& frames, const Receivers& receivers,
                            as_ratio};
     };
     const LightLimits limits = limits_of(frames.now);
-    const LightLimits limits_before = frames.previous ? limits_of(*frames.previous) : limits;
+    const LightLimits limits_before = previous ? limits_of(*previous) : limits;
     const Smoothed smoothed =
         smooth(receivers, now, before, {limits, limits_before}, frames.settings);
     for (std::size_t i = 0; i < layers.size(); ++i)

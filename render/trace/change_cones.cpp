@@ -2,6 +2,8 @@
 
 #include "recordings/base/check.h"
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,10 +19,15 @@ constexpr float rounding_margin = 1 + 1e-4f;
 /// Below this (m) a distance does not divide.
 constexpr float no_distance = 1e-30f;
 
-constexpr std::size_t simd_width = 8;
-static_assert(most_change_cones % simd_width == 0);
+/// As many cones as the processor works on at once.
+using Lanes = Eigen::Array<float, 8, 1>;
+constexpr std::size_t lanes = Lanes::RowsAtCompileTime;
+static_assert(most_change_cones % lanes == 0);
 
-/// Spheres as a point sees them, in planes: written without branches, for several at a time.
+Eigen::Map<Lanes> lanes_at(float* plane) { return Eigen::Map<Lanes>(plane); }
+Eigen::Map<const Lanes> lanes_at(const float* plane) { return Eigen::Map<const Lanes>(plane); }
+
+/// Spheres as a point sees them, in planes.
 struct SeenSpheres {
     using Plane = std::array<float, most_change_cones>;
     Plane axis_x, axis_y, axis_z, radius, distance;
@@ -31,24 +38,61 @@ struct SeenSpheres {
 
 void look_at(std::span<const BoundingSphere> spheres, const glm::vec3& position,
              const glm::vec3& normal, SeenSpheres& seen) {
-    for (std::size_t i = 0; i < spheres.size(); ++i) {
-        const float x = spheres[i].centre.x - position.x, y = spheres[i].centre.y - position.y,
-                    z = spheres[i].centre.z - position.z;
-        const float radius = spheres[i].radius * rounding_margin;
-        const float above = normal.x * x + normal.y * y + normal.z * z;
-        const float distance = std::sqrt(x * x + y * y + z * z);
-        const float divisor = std::max(distance, no_distance);
-        const float sine = radius / std::max(divisor, radius);
-        const float height = sine * sine / (1 + std::sqrt((1 - sine) * (1 + sine)));
-        // Largest cosine within a cone, whose half angle is below 90 degrees, from its axis's.
-        const float c = above / divisor, inner = 1 - height;
-        const float apart =
-            std::sqrt(std::max(0.0f, 1 - c * c)) * std::sqrt(std::max(0.0f, 1 - inner * inner));
-        seen.axis_x[i] = x / divisor, seen.axis_y[i] = y / divisor, seen.axis_z[i] = z / divisor;
-        seen.radius[i] = radius, seen.distance[i] = distance, seen.above[i] = above;
-        seen.height[i] = height;
-        seen.cosine[i] = c >= inner ? 1.0f : std::max(0.0f, c * inner + apart);
+    for (std::size_t i = 0; i < spheres.size() || i % lanes != 0; ++i) {
+        const BoundingSphere sphere = i < spheres.size() ? spheres[i] : BoundingSphere{position, 0};
+        seen.axis_x[i] = sphere.centre.x - position.x;
+        seen.axis_y[i] = sphere.centre.y - position.y;
+        seen.axis_z[i] = sphere.centre.z - position.z;
+        seen.radius[i] = sphere.radius * rounding_margin;
     }
+    for (std::size_t i = 0; i < spheres.size(); i += lanes) {
+        const Lanes x = lanes_at(&seen.axis_x[i]), y = lanes_at(&seen.axis_y[i]),
+                    z = lanes_at(&seen.axis_z[i]), radius = lanes_at(&seen.radius[i]);
+        const Lanes above = normal.x * x + normal.y * y + normal.z * z;
+        const Lanes distance = (x * x + y * y + z * z).sqrt();
+        const Lanes divisor = distance.max(no_distance);
+        const Lanes sine = radius / divisor.max(radius);
+        const Lanes height = sine * sine / (1 + ((1 - sine) * (1 + sine)).sqrt());
+        // Largest cosine within a cone, whose half angle is below 90 degrees, from its axis's.
+        const Lanes c = above / divisor, inner = 1 - height;
+        const Lanes apart = (1 - c * c).max(0.0f).sqrt() * (1 - inner * inner).max(0.0f).sqrt();
+        lanes_at(&seen.axis_x[i]) = x / divisor;
+        lanes_at(&seen.axis_y[i]) = y / divisor;
+        lanes_at(&seen.axis_z[i]) = z / divisor;
+        lanes_at(&seen.distance[i]) = distance;
+        lanes_at(&seen.above[i]) = above;
+        lanes_at(&seen.height[i]) = height;
+        lanes_at(&seen.cosine[i]) =
+            (c >= inner).select(Lanes::Ones(), (c * inner + apart).max(0.0f));
+    }
+}
+
+constexpr float anywhere = 2;
+
+/// Sets the cone that holds all circular ones, which are padded.
+void enclose(ChangeCones& cones) {
+    const auto count = std::size_t(cones.count);
+    cones.reach = anywhere;
+    cones.middle = glm::vec3(0);
+    if (count == 0 || cones.hemisphere > 0) return;
+    for (std::size_t i = 0; i < count; ++i)
+        cones.middle += glm::vec3(cones.axis_x[i], cones.axis_y[i], cones.axis_z[i]);
+    const float length = glm::length(cones.middle);
+    if (!(length > 0.1f)) return;  // they stand all around
+    cones.middle /= length;
+    Lanes least = Lanes::Ones();  // cosine of the angle to the far side of a cone
+    for (std::size_t i = 0; i < count; i += lanes) {
+        const Lanes height = lanes_at(&cones.height[i]), down = height.max(0.0f);
+        const Lanes to_axis = cones.middle.x * lanes_at(&cones.axis_x[i]) +
+                              cones.middle.y * lanes_at(&cones.axis_y[i]) +
+                              cones.middle.z * lanes_at(&cones.axis_z[i]);
+        const Lanes sine = (1 - to_axis * to_axis).max(0.0f).sqrt();
+        const Lanes far_side = to_axis * (1 - down) - sine * (down * (2 - down)).sqrt();
+        const Lanes cosine = (to_axis > 0.0f).select(far_side, -Lanes::Ones());
+        least = (height >= 0.0f).select(least.min(cosine), least);
+    }
+    const float furthest = least.minCoeff();
+    if (furthest > -1) cones.reach = (1 - furthest) * rounding_margin + 1e-6f;
 }
 
 }  // namespace
@@ -88,10 +132,11 @@ void find_cones(std::span<const BoundingSphere> spheres, const glm::vec3& positi
         cones.below[i] = (hemisphere + cones.below[i]) / total;
         cones.density[i] /= 2 * pi * total;
     }
-    for (std::size_t i = count; i % simd_width != 0; ++i) {
+    for (std::size_t i = count; i % lanes != 0; ++i) {
         cones.axis_x[i] = cones.axis_y[i] = cones.axis_z[i] = cones.density[i] = 0;
         cones.height[i] = -1;
     }
+    enclose(cones);
 }
 
 DirectionSample sample_cones(const ChangeCones& cones, glm::vec2 u) {
@@ -116,21 +161,16 @@ DirectionSample sample_cones(const ChangeCones& cones, glm::vec2 u) {
 }
 
 float pdf_cones(const ChangeCones& cones, const glm::vec3& direction) {
-    std::array<float, simd_width> sums{};
-    for (std::size_t first = 0; first < std::size_t(cones.count); first += simd_width) {
-        for (std::size_t k = 0; k < simd_width; ++k) {
-            const std::size_t i = first + k;
-            // 1 - cosine as half the squared distance of unit vectors: exact for narrow cones
-            const float x = direction.x - cones.axis_x[i], y = direction.y - cones.axis_y[i],
-                        z = direction.z - cones.axis_z[i];
-            const bool within = 0.5f * (x * x + y * y + z * z) <= cones.height[i];
-            sums[k] += within ? cones.density[i] : 0.0f;
-        }
+    Lanes sum = Lanes::Zero();
+    for (std::size_t i = 0; i < std::size_t(cones.count); i += lanes) {
+        const Lanes x = direction.x - lanes_at(&cones.axis_x[i]),
+                    y = direction.y - lanes_at(&cones.axis_y[i]),
+                    z = direction.z - lanes_at(&cones.axis_z[i]);
+        // 1 - cosine as half the squared distance of unit vectors: exact for narrow cones
+        const auto within = 0.5f * (x * x + y * y + z * z) <= lanes_at(&cones.height[i]);
+        sum += within.select(lanes_at(&cones.density[i]), Lanes::Zero());
     }
-    for (std::size_t half = simd_width / 2; half > 0; half /= 2)
-        for (std::size_t k = 0; k < half; ++k)
-            sums[k] += sums[k + half];
-    return sums[0] + cones.hemisphere * std::max(0.0f, glm::dot(cones.normal, direction)) / pi;
+    return sum.sum() + cones.hemisphere * std::max(0.0f, glm::dot(cones.normal, direction)) / pi;
 }
 
 }  // namespace inlay

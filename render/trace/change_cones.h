@@ -28,6 +28,9 @@ struct ChangeCones {
     std::array<float, most_change_cones> density;  // per steradian, of all samples together
     std::array<float, most_change_cones> below;    // share of the samples in those before
 
+    glm::vec3 middle{0.0f};  // unit: axis of a cone that holds all of them
+    float reach = 0;         // 1 - cosine of its half angle; 2: every direction may be in one
+
     bool empty() const { return count == 0 && hemisphere == 0; }
 };
 
@@ -36,6 +39,12 @@ struct ChangeCones {
 /// none. Throws Error for more than most_change_cones of them.
 void find_cones(std::span<const BoundingSphere> spheres, const glm::vec3& position,
                 const glm::vec3& normal, ChangeCones& cones);
+
+/// Whether a unit direction can have a density at all: asked first, since most have none.
+inline bool may_hold(const ChangeCones& cones, const glm::vec3& direction) {
+    const glm::vec3 apart = direction - cones.middle;
+    return 0.5f * glm::dot(apart, apart) <= cones.reach;
+}
 
 /// A direction for `u` in [0, 1) x [0, 1); pdf 0 without cones. It may lie below the horizon.
 DirectionSample sample_cones(const ChangeCones& cones, glm::vec2 u);

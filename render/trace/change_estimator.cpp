@@ -102,6 +102,7 @@ void exchange_surfaces(Search& search) {
         const bool open = behind.distance[i] == no_hit;
         narrow(search, t);
         ChangeSums& sums = search.pass.sums[t.lane].change;
+        sums.hidden += double(t.weight);
         if (open) sums.add(&ChangeSums::direct, -t.light);
         sums.add(&ChangeSums::indirect, t.weight * (open ? sent[i] : sent[i] - behind.radiance[i]));
     }
@@ -156,18 +157,22 @@ Rgb weighted(const Search& search, std::size_t lane, const LightSample& light, f
                                        search.by_cones[lane] * by_cones));
 }
 
-Try try_light(const Search& search, std::size_t lane, int number) {
+/// Sample `number` of the pixel's light, if virtual geometry may be seen there.
+void try_light(Search& search, std::size_t lane, int number) {
+    const ChangeCones& cones = search.cones[lane];
     const LightSample& light = search.pass.nets.at(search.first_run[lane], search.run, number);
-    if (!(light.pdf > 0)) return {};
-    const float by_cones = pdf_cones(search.cones[lane], light.direction);
-    if (by_cones == 0) return {};
-    return {lane,
-            std::uint32_t(number),
-            light.direction,
-            weighted(search, lane, light, by_cones),
-            0,
-            counts_as_occluded(search.pass, light.radiance),
-            {}};
+    if (!(may_hold(cones, light.direction) && light.pdf > 0)) return;
+    const float by_cones = pdf_cones(cones, light.direction);
+    if (by_cones == 0) return;
+    follow_try(search,
+               {lane,
+                std::uint32_t(number),
+                light.direction,
+                weighted(search, lane, light, by_cones),
+                0,
+                counts_as_occluded(search.pass, light.radiance),
+                {}},
+               shadows);
 }
 
 void try_lights(Search& search) {
@@ -175,7 +180,7 @@ void try_lights(Search& search) {
     for (std::size_t lane = 0; lane < packet_width; ++lane) {
         if (search.cones[lane].empty()) continue;
         for (int n = 0; n < tries; ++n)
-            follow_try(search, try_light(search, lane, search.change.ray * tries + n), shadows);
+            try_light(search, lane, search.change.ray * tries + n);
     }
     follow_rest(search, shadows);
 }

@@ -47,6 +47,7 @@ struct Unshadowed {
 /// samples.
 struct ChangeRates {
     Image<float> direct, indirect;
+    Image<float> share;  // of an even sky's irradiance that virtual surfaces hide: estimated, 0..1
 };
 
 /// Per-pixel Monte Carlo estimates of one frame, with the camera that saw them.
@@ -67,10 +68,15 @@ struct NoisyLayers {
     Receiver virtual_;                  // real geometry counts as occluder too
     std::uint64_t dropped_samples = 0;  // non-finite ones, left out of every mean
     Unshadowed unshadowed;              // empty unless asked for
+    Image<std::uint8_t> sampled_real;   // 0: real surfaces got no samples of E_R, which counts as
+                                        // 0, with no rates; empty: all got them
 };
 
 /// Whether E_RV - E_R was sampled for itself.
 inline bool sampled_apart(const NoisyLayers& layers) { return !layers.change_rates.direct.empty(); }
+
+/// 1 where virtual geometry changes the light of a real surface.
+Image<std::uint8_t> changed_pixels(const NoisyLayers& layers);
 
 /// Light samples per pixel that virtual surfaces got.
 inline int samples_on_virtual(const NoisyLayers& layers) {

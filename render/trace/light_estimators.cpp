@@ -46,20 +46,52 @@ void add_light_sample(const SamplePass& pass, const Landing& from, const LightSa
     sums.glossy_direct.add(glossy);
 }
 
-}  // namespace
-
-void add_direct(SamplePass& pass) {
+/// A light sample for each landing; a ray for those above the surface.
+struct DirectRays {
     std::array<LightSample, packet_width> lights;
     RayPair rays;
+};
+
+DirectRays direct_rays(const SamplePass& pass) {
+    DirectRays result;
     for (int lane = 0; lane < packet_width; ++lane) {
         const auto i = std::size_t(lane);
         const Landing& from = pass.landings[i];
         if (from.kind == LandingKind::nothing) continue;
-        lights[i] = light_sample(pass, pass.keys[i], light_direction,
-                                 light_samples_on(from.kind, pass.settings));
-        if (lights[i].pdf > 0 && glm::dot(from.normal, lights[i].direction) > 0)
-            rays.set(lane, from, lights[i].direction, pass.scene.real.offset);
+        LightSample& light = result.lights[i];
+        light = light_sample(pass, pass.keys[i], light_direction,
+                             light_samples_on(from.kind, pass.settings));
+        if (light.pdf > 0 && glm::dot(from.normal, light.direction) > 0)
+            result.rays.set(lane, from, light.direction, pass.scene.real.offset);
     }
+    return result;
+}
+
+RayPair diffuse_rays(const SamplePass& pass) {
+    RayPair rays;
+    for (int lane = 0; lane < packet_width; ++lane) {
+        const Landing& from = pass.landings[std::size_t(lane)];
+        if (from.kind == LandingKind::nothing) continue;
+        const glm::vec2 u = stratified_pair(pass.keys[std::size_t(lane)], diffuse_lobe);
+        rays.set(lane, from, basis_about(from.normal) * sample_cosine_hemisphere(u).direction,
+                 pass.scene.real.offset);
+    }
+    return rays;
+}
+
+}  // namespace
+
+std::uint32_t lanes_meeting_virtual(SamplePass& pass) {
+    const RayPacket direct = direct_rays(pass).rays.against_virtual,
+                    indirect = diffuse_rays(pass).against_virtual;
+    pass.rays.virtual_shadow += count(direct);
+    pass.rays.virtual_indirect += count(indirect);
+    const EmbreeScene& objects = pass.scene.virtual_objects;
+    return objects.occluded(direct) | objects.occluded(indirect);
+}
+
+void add_direct(SamplePass& pass) {
+    const auto [lights, rays] = direct_rays(pass);
     const HitPacket on_virtual = pass.scene.virtual_objects.intersect(rays.against_virtual);
     const DistancePacket on_real = pass.scene.real.distances(rays.against_real);
     pass.rays.virtual_shadow += count(rays.against_virtual);
@@ -74,14 +106,7 @@ void add_direct(SamplePass& pass) {
 }
 
 void add_indirect(SamplePass& pass) {
-    RayPair rays;
-    for (int lane = 0; lane < packet_width; ++lane) {
-        const Landing& from = pass.landings[std::size_t(lane)];
-        if (from.kind == LandingKind::nothing) continue;
-        const glm::vec2 u = stratified_pair(pass.keys[std::size_t(lane)], diffuse_lobe);
-        rays.set(lane, from, basis_about(from.normal) * sample_cosine_hemisphere(u).direction,
-                 pass.scene.real.offset);
-    }
+    const RayPair rays = diffuse_rays(pass);
     const Bounce light_back = bounce(pass, rays);
     for (std::size_t i = 0; i < packet_width; ++i) {
         const Landing& from = pass.landings[i];

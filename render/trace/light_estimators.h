@@ -18,4 +18,8 @@ void add_indirect(SamplePass& pass);
 /// environment.
 void add_glossy(SamplePass& pass);
 
+/// The pixels (a bit mask) in which the rays of add_direct or add_indirect from a real surface meet
+/// virtual geometry, whether or not real geometry is nearer.
+std::uint32_t lanes_meeting_virtual(SamplePass& pass);
+
 }  // namespace inlay

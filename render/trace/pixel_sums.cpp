@@ -22,6 +22,7 @@ void store(const ChangeSums& sums, std::size_t i, NoisyLayers& layers) {
     layers.indirect.e_rv_real.pixels[i] = layers.indirect.e_r.pixels[i] + Rgb(sums.indirect / rays);
     layers.change_rates.direct.pixels[i] = sums.rate_direct;
     layers.change_rates.indirect.pixels[i] = sums.rate_indirect;
+    layers.change_rates.share.pixels[i] = float(sums.hidden / rays / std::numbers::pi);
 }
 
 /// What is known of the virtual surfaces at a pixel.
@@ -65,6 +66,28 @@ void store(const PixelSums& sums, int x, int y, NoisyLayers& layers) {
     if (!layers.k_v.empty()) store_virtual(sums, i, layers);
 }
 
+void add_real_light(const PixelSums& sums, int x, int y, NoisyLayers& layers) {
+    const std::size_t i = layers.m.index(x, y);
+    const auto add = [i](const PairedSum& light, Irradiance& to) {
+        to.e_r.pixels[i] = light.e_r.mean();
+        to.e_rv_real.pixels[i] += to.e_r.pixels[i];
+    };
+    add(sums.direct, layers.direct);
+    add(sums.indirect, layers.indirect);
+    layers.real.occluder_direct.pixels[i] = sums.real.occluder_direct;
+    layers.real.occluder_indirect.pixels[i] = sums.real.occluder_indirect;
+    if (!layers.unshadowed.real.empty())
+        layers.unshadowed.real.pixels[i] = sums.unshadowed_real.mean();
+}
+
+Image<std::uint8_t> changed_pixels(const NoisyLayers& layers) {
+    Image<std::uint8_t> changed(layers.m.width, layers.m.height, 0);
+    for (std::size_t i = 0; i < changed.pixels.size(); ++i)
+        changed.pixels[i] = layers.direct.e_rv_real.pixels[i] != layers.direct.e_r.pixels[i] ||
+                            layers.indirect.e_rv_real.pixels[i] != layers.indirect.e_r.pixels[i];
+    return changed;
+}
+
 NoisyLayers make_noisy_layers(const Lens& lens, const Pose& world_from_camera,
                               const SamplingSettings& settings) {
     const int w = lens.width, h = lens.height;
@@ -76,7 +99,7 @@ NoisyLayers make_noisy_layers(const Lens& lens, const Pose& world_from_camera,
     layers.direct = layers.indirect = make_irradiance(w, h, settings.virtual_seen);
     layers.real = make_receiver(w, h);
     if (settings.estimator == Estimator::difference)
-        layers.change_rates = {Image<float>(w, h), Image<float>(w, h)};
+        layers.change_rates = {Image<float>(w, h), Image<float>(w, h), Image<float>(w, h)};
     if (!settings.virtual_seen) return layers;
     layers.k_v = Image<Rgb>(w, h);
     layers.virtual_ = make_receiver(w, h);

@@ -53,6 +53,7 @@ struct ChangeSums {
     int camera_rays = 0, dropped = 0;
     float cone_tries = 0;                      // of one half, on average over their roundings
     glm::dvec3 direct{0.0}, indirect{0.0};     // each sample over the samples of its camera ray
+    double hidden = 0;                         // cos / p over directions where virtual is nearest
     float rate_direct = 0, rate_indirect = 0;  // largest cos/r of virtual surfaces, 1/m
 
     /// Leaves out, and counts, what is not finite.
@@ -76,6 +77,9 @@ struct PixelSums {
 
 /// Writes a pixel's means into the layers.
 void store(const PixelSums& sums, int x, int y, NoisyLayers& layers);
+
+/// Adds E_R, where it is sampled for itself, to a pixel that was stored without it.
+void add_real_light(const PixelSums& sums, int x, int y, NoisyLayers& layers);
 
 /// Layers of `lens`'s size, all zero; of what `settings` says no camera ray meets, empty images.
 NoisyLayers make_noisy_layers(const Lens& lens, const Pose& world_from_camera,

@@ -2,6 +2,7 @@
 
 #include "render/trace/bounce.h"
 
+#include <algorithm>
 #include <numbers>
 
 namespace inlay {
@@ -11,22 +12,11 @@ constexpr float pi = std::numbers::pi_v<float>;
 
 bool is_real(const Landing& landing) { return landing.kind == LandingKind::real; }
 
-/// Share of an open surface's irradiance above which a change is plainly seen.
-constexpr float shown_change = 0.06f;
+/// Shares of an open surface's irradiance above which a change is seen plainly, and at all.
+constexpr float plain_change = 0.06f, slight_change = 0.003f;
 
-}  // namespace
-
-int real_light_samples(const TwoModeScene& scene, const SamplingSettings& settings,
-                       const ChangeSums& change) {
-    const glm::dvec3 sum = glm::abs(change.direct) + glm::abs(change.indirect);
-    const float shown = shown_change * pi * scene.environment.mean_luminance;
-    const bool is_shown = luminance(Rgb(sum)) > shown * float(change.camera_rays);
-    const int most = most_real_light_samples(settings);
-    return is_shown ? most : std::max(1, most / 4);
-}
-
-int most_real_light_samples(const SamplingSettings& settings) { return settings.secondary; }
-
+/// One sample of the environment's light on real surfaces, shadowed by real geometry. `counts` are
+/// the samples that each pixel takes in all.
 void add_real_direct(SamplePass& pass, const LaneCounts& counts) {
     std::array<LightSample, packet_width> lights;
     RayPair rays;
@@ -34,8 +24,7 @@ void add_real_direct(SamplePass& pass, const LaneCounts& counts) {
         const auto i = std::size_t(lane);
         const Landing& from = pass.landings[i];
         if (!is_real(from)) continue;
-        lights[i] =
-            light_sample(pass, pass.keys[i], light_direction, pass.settings.primary * counts[i]);
+        lights[i] = light_sample(pass, pass.keys[i], light_direction, counts[i]);
         if (lights[i].pdf > 0 && glm::dot(from.normal, lights[i].direction) > 0)
             rays.set(lane, from, lights[i].direction, pass.scene.real.offset);
     }
@@ -62,6 +51,7 @@ void add_real_direct(SamplePass& pass, const LaneCounts& counts) {
     }
 }
 
+/// One bounce along the cosine lobe of real surfaces, which meets real geometry alone.
 void add_real_indirect(SamplePass& pass) {
     RayPair rays;
     for (int lane = 0; lane < packet_width; ++lane) {
@@ -84,6 +74,65 @@ void add_real_indirect(SamplePass& pass) {
                                                              back.distance[i], pass.settings));
         }
         sums.indirect.add(light, light);
+    }
+}
+
+/// What a pixel has taken of the samples that it wants.
+struct Progress {
+    LaneCounts taken{}, landed{};  // samples, and camera rays on real surfaces
+};
+
+/// The samples that fall to the rays at hand, one after the other.
+void add_from_rays(const TilePass& pass, const Landings& landings, const LaneCounts& counts,
+                   Progress& progress) {
+    const int rays = pass.settings.primary;
+    LaneCounts ends{};
+    int most = 0;
+    for (std::size_t i = 0; i < packet_width; ++i) {
+        ends[i] = progress.taken[i];
+        if (!is_real(landings[i]) || progress.taken[i] == counts[i]) continue;
+        ends[i] = (counts[i] * ++progress.landed[i] + rays - 1) / rays;
+        most = std::max(most, ends[i] - progress.taken[i]);
+    }
+    for (int s = 0; s < most; ++s) {
+        Landings sampled;
+        SampleKeys keys = pass.keys(0);
+        for (std::size_t i = 0; i < packet_width; ++i) {
+            if (progress.taken[i] == ends[i]) continue;
+            sampled[i] = landings[i];
+            keys[i].sample = std::uint32_t(progress.taken[i]++);
+        }
+        SamplePass sample = pass.from(sampled, keys);
+        add_real_direct(sample, counts);
+        add_real_indirect(sample);
+    }
+}
+
+}  // namespace
+
+int real_light_samples(const TwoModeScene& scene, const SamplingSettings& settings, float hidden,
+                       const Rgb& change) {
+    const int most = most_real_light_samples(settings);
+    const float open = pi * scene.environment.mean_luminance;
+    const float seen = hidden + (open > 0 ? luminance(glm::abs(change)) / open : 0.0f);
+    if (seen > plain_change) return most;
+    return std::max(1, most / (seen > slight_change ? 4 : 16));
+}
+
+int most_real_light_samples(const SamplingSettings& settings) {
+    return settings.primary * settings.secondary;
+}
+
+void sample_real_light(const TilePass& pass, const LaneCounts& counts, int camera_rays) {
+    Progress progress;
+    for (int ray = 0; ray < camera_rays; ++ray) {
+        std::uint32_t wanting = 0;
+        for (std::size_t i = 0; i < packet_width; ++i)
+            if (counts[i] > progress.taken[i] &&
+                (ray < pass.settings.primary || progress.landed[i] == 0))
+                wanting |= 1U << i;
+        if (wanting == 0) return;
+        add_from_rays(pass, pass.land_at(ray, wanting), counts, progress);
     }
 }
 

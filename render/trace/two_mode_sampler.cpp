@@ -4,8 +4,8 @@
 #include "recordings/base/parallel.h"
 #include "render/trace/change_estimator.h"
 #include "render/trace/light_estimators.h"
-#include "render/trace/pixel_tile.h"
 #include "render/trace/real_light.h"
+#include "render/trace/tile_pass.h"
 
 #include <algorithm>
 #include <bit>
@@ -15,12 +15,6 @@
 
 namespace inlay {
 namespace {
-
-struct Tile {
-    PixelTile area;
-    std::array<PixelSums, packet_width> sums;
-    RayCounts rays;
-};
 
 void receive(const Landing& landing, PixelSums& sums) {
     ReceiverSums& receiver = receiver_of(sums, landing.kind);
@@ -48,82 +42,19 @@ int largest_net_use(const TwoModeScene& scene, const SamplingSettings& settings)
     return settings.primary * std::max({on_virtual, on_real, 1});
 }
 
-/// The random numbers and rays of one tile.
-struct TilePass {
-    const TwoModeScene& scene;
-    const SamplingSettings& settings;
-    const LightNets& nets;
-    std::uint32_t frame;
-    Tile& tile;
-
-    SampleKeys keys(int sample) const {
-        return sample_keys(tile.area, scene.lens, {settings.seed, frame, 0, std::uint32_t(sample)});
-    }
-
-    Landings land_at(int sample) const {
-        const RayPacket rays = camera_rays(tile.area, scene.lens, scene.world_from_camera,
-                                           pixel_shifts(keys(sample), position_in_pixel));
-        tile.rays.primary += std::uint64_t(std::popcount(rays.active));
-        static const EmbreeScene none;
-        return land(scene.real, settings.virtual_seen ? scene.virtual_objects : none, rays,
-                    tile.area.pixels, settings.depth_tolerance);
-    }
-
-    void add_samples(const Landings& landings, int first_sample) const {
-        for (int s = 0; s < settings.secondary; ++s) {
-            SamplePass pass{scene,     settings,  landings, keys(first_sample + s),
-                            tile.sums, tile.rays, nets};
-            add_direct(pass);
-            add_indirect(pass);
-            if (settings.glossy_seen) add_glossy(pass);
-        }
-    }
-
-    /// Samples of what virtual geometry changes on real surfaces.
-    void add_changes(const Landings& landings, int ray) const {
-        SamplePass pass{scene, settings, landings, keys(ray), tile.sums, tile.rays, nets};
-        add_change({pass, change_counts(scene, settings), ray});
-    }
-
-    /// Samples of E_R: more where virtual geometry was seen to change the light.
-    void add_real_light(const Landings& landings, int ray) const {
-        LaneCounts counts{};
-        for_each_lane([&](std::size_t lane, const PixelSums& sums) {
-            if (landings[lane].kind == LandingKind::real)
-                counts[lane] = real_light_samples(scene, settings, sums.change);
-        });
-        const int most = *std::max_element(counts.begin(), counts.end());
-        for (int s = 0; s < most; ++s) {
-            Landings sampled;
-            SampleKeys numbers = keys(ray);
-            for (std::size_t lane = 0; lane < packet_width; ++lane) {
-                if (s < counts[lane]) sampled[lane] = landings[lane];
-                numbers[lane].sample = std::uint32_t(ray * counts[lane] + s);
-            }
-            SamplePass pass{scene, settings, sampled, numbers, tile.sums, tile.rays, nets};
-            add_real_direct(pass, counts);
-            add_real_indirect(pass);
-        }
-    }
-
-    template <class Body>
-    void for_each_lane(const Body& body) const {
-        for (int lane = 0; lane < packet_width; ++lane)
-            if (tile.area.has(lane)) body(std::size_t(lane), tile.sums[std::size_t(lane)]);
-    }
-};
-
-/// The landings of one kind; the others count as nothing.
-Landings only(LandingKind kind, const Landings& landings) {
-    Landings result;
-    for (std::size_t lane = 0; lane < packet_width; ++lane)
-        if (landings[lane].kind == kind) result[lane] = landings[lane];
-    return result;
+template <class Body>
+void for_each_lane(Tile& tile, const Body& body) {
+    for (int lane = 0; lane < packet_width; ++lane)
+        if (tile.area.has(lane)) body(std::size_t(lane), tile.sums[std::size_t(lane)]);
 }
 
-bool any_landing(const Landings& landings) {
-    return std::any_of(landings.begin(), landings.end(),
-                       [](const Landing& landing) { return landing.kind != LandingKind::nothing; });
+void add_samples(const TilePass& pass, const Landings& landings, int first_sample) {
+    for (int s = 0; s < pass.settings.secondary; ++s) {
+        SamplePass sample = pass.from(landings, pass.keys(first_sample + s));
+        add_direct(sample);
+        add_indirect(sample);
+        if (pass.settings.glossy_seen) add_glossy(sample);
+    }
 }
 
 /// Light samples of what one camera ray of each pixel met, but for E_R where it is sampled for
@@ -132,12 +63,13 @@ bool any_landing(const Landings& landings) {
 void gather_light(const TilePass& pass, const Landings& landings, int ray) {
     const int first_sample = ray * pass.settings.secondary;
     if (pass.settings.estimator == Estimator::two_mode) {
-        pass.add_samples(landings, first_sample);
+        add_samples(pass, landings, first_sample);
         return;
     }
-    pass.add_changes(landings, ray);
+    SamplePass sample = pass.from(landings, pass.keys(ray));
+    add_change({sample, change_counts(pass.scene, pass.settings), ray});
     const Landings on_virtual = only(LandingKind::on_virtual, landings);
-    if (any_landing(on_virtual)) pass.add_samples(on_virtual, first_sample);
+    if (any_landing(on_virtual)) add_samples(pass, on_virtual, first_sample);
 }
 
 bool sees_virtual(const Tile& tile) {
@@ -145,16 +77,29 @@ bool sees_virtual(const Tile& tile) {
                        [](const PixelSums& sums) { return sums.looks_virtual > 0; });
 }
 
+/// Camera rays of a pixel in a tile that sees virtual surfaces.
+int most_camera_rays(const SamplingSettings& settings) {
+    return std::max(settings.coverage, settings.primary * settings.virtual_repeats);
+}
+
+/// Real surfaces receive no light where none is needed.
+Landings where_needed(const Landings& landings, std::uint32_t needed) {
+    Landings result = landings;
+    for (std::size_t lane = 0; lane < packet_width; ++lane)
+        if (landings[lane].kind == LandingKind::real && !((needed >> lane) & 1U)) result[lane] = {};
+    return result;
+}
+
 /// Looks again at a tile with virtual surfaces: their edges and textures need more camera rays than
 /// the light on real surfaces does, and their light is sampled where some of these rays meet them.
 /// A kind of surface that only the other rays meet gets light samples too.
-void refine(const TilePass& pass) {
+void refine(const TilePass& pass, std::uint32_t needed) {
     const SamplingSettings& settings = pass.settings;
     const int lit = settings.primary * settings.virtual_repeats;
     Landings missed_real, missed_virtual;  // both kinds may be missed in one pixel
-    for (int p = settings.primary; p < std::max(settings.coverage, lit); ++p) {
+    for (int p = settings.primary; p < most_camera_rays(settings); ++p) {
         const Landings landings = pass.land_at(p);
-        pass.for_each_lane([&](std::size_t lane, PixelSums& sums) {
+        for_each_lane(pass.tile, [&](std::size_t lane, PixelSums& sums) {
             const Landing& landing = landings[lane];
             if (p < settings.coverage) look(landing, sums);
             if (landing.kind == LandingKind::nothing) return;
@@ -168,31 +113,54 @@ void refine(const TilePass& pass) {
         });
         if (p >= lit) continue;
         const Landings on_virtual = only(LandingKind::on_virtual, landings);
-        if (any_landing(on_virtual)) pass.add_samples(on_virtual, p * settings.secondary);
+        if (any_landing(on_virtual)) add_samples(pass, on_virtual, p * settings.secondary);
     }
-    for (const Landings* missed : {&missed_real, &missed_virtual})
-        if (any_landing(*missed)) gather_light(pass, *missed, lit);
-    if (settings.estimator == Estimator::difference && any_landing(missed_real))
-        pass.add_real_light(missed_real, lit);
+    for (const Landings& missed : {where_needed(missed_real, needed), missed_virtual})
+        if (any_landing(missed)) gather_light(pass, missed, lit);
 }
 
-void sample_tile(const TilePass& pass) {
-    const SamplingSettings& settings = pass.settings;
-    const bool apart = settings.estimator == Estimator::difference;
-    std::vector<Landings> seen;
-    if (apart) seen.reserve(std::size_t(settings.primary));
-    for (int p = 0; p < settings.primary; ++p) {
+/// All that a tile's pixels see, with its light; but E_R where it is sampled for itself. `needed`
+/// are the pixels whose real surfaces need light samples.
+void sample_tile(const TilePass& pass, std::uint32_t needed) {
+    for (int p = 0; p < pass.settings.primary; ++p) {
         const Landings landings = pass.land_at(p);
-        if (apart) seen.push_back(landings);
-        pass.for_each_lane([&](std::size_t lane, PixelSums& sums) {
+        for_each_lane(pass.tile, [&](std::size_t lane, PixelSums& sums) {
             look(landings[lane], sums);
             if (landings[lane].kind != LandingKind::nothing) receive(landings[lane], sums);
         });
-        gather_light(pass, landings, p);
+        gather_light(pass, where_needed(landings, needed), p);
     }
-    for (std::size_t p = 0; p < seen.size(); ++p)  // once the whole change is known
-        pass.add_real_light(seen[p], int(p));
-    if (sees_virtual(pass.tile)) refine(pass);
+    if (sees_virtual(pass.tile)) refine(pass, needed);
+}
+
+/// The pixels of which a light sample on a real surface may meet virtual geometry, if both modes
+/// share their samples; all of a tile that sees virtual surfaces.
+std::uint32_t touched_lanes(const TilePass& pass) {
+    std::uint32_t touched = 0;
+    for (int p = 0; p < pass.settings.primary; ++p) {
+        const Landings landings = pass.land_at(p);
+        for (const Landing& landing : landings)
+            if (landing.kind == LandingKind::on_virtual) return pass.tile.area.inside;
+        for (int s = 0; s < pass.settings.secondary; ++s) {
+            SamplePass sample = pass.from(landings, pass.keys(p * pass.settings.secondary + s));
+            touched |= lanes_meeting_virtual(sample);
+        }
+    }
+    return touched;
+}
+
+/// Samples of E_R: more where virtual geometry was seen to change the light.
+void light_real_surfaces(const TilePass& pass, std::uint32_t needed, const NoisyLayers& layers) {
+    LaneCounts counts{};
+    for_each_lane(pass.tile, [&](std::size_t lane, const PixelSums&) {
+        const glm::ivec2 p = pass.tile.area.pixels[lane];
+        const std::size_t at = layers.m.index(p.x, p.y);
+        if (layers.real.object.pixels[at] == 0 || !((needed >> lane) & 1U)) return;
+        counts[lane] =
+            real_light_samples(pass.scene, pass.settings, layers.change_rates.share.pixels[at],
+                               layers.direct.e_rv_real.pixels[at]);
+    });
+    sample_real_light(pass, counts, most_camera_rays(pass.settings));
 }
 
 void add(RayCounts& sum, const RayCounts& more) {
@@ -201,6 +169,93 @@ void add(RayCounts& sum, const RayCounts& more) {
     sum.virtual_indirect += more.virtual_indirect;
     sum.real_shadow += more.real_shadow;
     sum.real_indirect += more.real_indirect;
+}
+
+/// A frame's tiles, and what sampling them adds up to.
+struct FramePass {
+    const TwoModeScene& scene;
+    const SamplingSettings& settings;
+    const LightNets& nets;
+    std::uint32_t frame;
+    TwoModeResult& result;
+
+    /// body(pass, needed) for every tile, and then end(sums, x, y) for each of its pixels; `needed`
+    /// (empty: all) is asked for the tile's lanes.
+    template <class Body, class End>
+    void over_tiles(const Image<std::uint8_t>& needed, const Body& body, const End& end) const;
+};
+
+std::uint32_t lanes_of(const PixelTile& area, const Image<std::uint8_t>& chosen) {
+    if (chosen.empty()) return area.inside;
+    std::uint32_t lanes = 0;
+    for (int lane = 0; lane < packet_width; ++lane) {
+        const glm::ivec2 p = area.pixels[std::size_t(lane)];
+        if (area.has(lane) && chosen(p.x, p.y) != 0) lanes |= 1U << lane;
+    }
+    return lanes;
+}
+
+template <class Body, class End>
+void FramePass::over_tiles(const Image<std::uint8_t>& needed, const Body& body,
+                           const End& end) const {
+    const int rows = tile_rows(scene.lens);
+    std::vector<RayCounts> row_rays{std::size_t(rows)};
+    std::vector<std::uint64_t> row_dropped(std::size_t(rows), 0);
+    parallel_for(rows, [&](int row) {
+        for (int column = 0; column < tile_columns(scene.lens); ++column) {
+            Tile tile;
+            tile.area = tile_at(scene.lens, column, row);
+            body(TilePass{scene, settings, nets, frame, tile}, lanes_of(tile.area, needed));
+            add(row_rays[std::size_t(row)], tile.rays);
+            for_each_lane(tile, [&](std::size_t lane, const PixelSums& sums) {
+                end(sums, tile.area.pixels[lane]);
+                row_dropped[std::size_t(row)] += std::uint64_t(dropped(sums));
+            });
+        }
+    });
+    for (std::size_t row = 0; row < row_rays.size(); ++row) {
+        add(result.rays, row_rays[row]);
+        result.layers.dropped_samples += row_dropped[row];
+    }
+}
+
+/// Whether light samples meet virtual geometry in most parts of the image: one tile of 64 tells.
+bool touched_all_over(const FramePass& pass) {
+    constexpr int step = 8;
+    int asked = 0, touched = 0;
+    for (int row = step / 2; row < tile_rows(pass.scene.lens); row += step) {
+        for (int column = step / 2; column < tile_columns(pass.scene.lens); column += step) {
+            Tile tile;
+            tile.area = tile_at(pass.scene.lens, column, row);
+            ++asked;
+            touched += touched_lanes({pass.scene, pass.settings, pass.nets, pass.frame, tile}) != 0;
+            add(pass.result.rays, tile.rays);
+        }
+    }
+    return touched > asked / 2;
+}
+
+/// 1 where virtual geometry is met by light samples that both modes share, or may be: everywhere,
+/// where to find out would cost more than it can save.
+Image<std::uint8_t> touched_pixels(const FramePass& pass) {
+    Image<std::uint8_t> touched(pass.scene.lens.width, pass.scene.lens.height, 0);
+    if (touched_all_over(pass)) {
+        std::fill(touched.pixels.begin(), touched.pixels.end(), std::uint8_t(1));
+        return touched;
+    }
+    const auto nothing_more = [](const PixelSums&, glm::ivec2) {};
+    pass.over_tiles(
+        {},
+        [&](const TilePass& tile, std::uint32_t) {
+            const std::uint32_t lanes = touched_lanes(tile);
+            for (int lane = 0; lane < packet_width; ++lane)
+                if ((lanes >> lane) & 1U) {
+                    const glm::ivec2 p = tile.tile.area.pixels[std::size_t(lane)];
+                    touched(p.x, p.y) = 1;
+                }
+        },
+        nothing_more);
+    return touched;
 }
 
 }  // namespace
@@ -229,38 +284,35 @@ SamplingSettings with_samples(SamplingSettings settings, int samples) {
 }
 
 TwoModeResult sample_two_modes(const TwoModeScene& scene, const SamplingSettings& settings,
-                               std::uint32_t frame) {
+                               std::uint32_t frame, const LightDemand& demand) {
     validate(settings);
     const Lens& lens = scene.lens;
     TwoModeResult result{make_noisy_layers(lens, scene.world_from_camera, settings), {}};
-    result.layers.virtual_samples = result.layers.samples * settings.virtual_repeats;
+    NoisyLayers& layers = result.layers;
+    layers.virtual_samples = layers.samples * settings.virtual_repeats;
     if (settings.unshadowed) {
         const Image<Rgb> black(lens.width, lens.height, Rgb(0));
-        result.layers.unshadowed = {black, settings.virtual_seen ? black : Image<Rgb>{}};
+        layers.unshadowed = {black, settings.virtual_seen ? black : Image<Rgb>{}};
     }
     const LightNets nets = make_light_nets(scene.environment, largest_net_use(scene, settings),
                                            {settings.seed, frame, 0, 0});
-    const int rows = tile_rows(lens);
-    std::vector<RayCounts> row_rays{std::size_t(rows)};
-    std::vector<std::uint64_t> row_dropped(std::size_t(rows), 0);
-    parallel_for(rows, [&](int row) {
-        for (int column = 0; column < tile_columns(lens); ++column) {
-            Tile tile;
-            tile.area = tile_at(lens, column, row);
-            sample_tile({scene, settings, nets, frame, tile});
-            add(row_rays[std::size_t(row)], tile.rays);
-            for (int lane = 0; lane < packet_width; ++lane) {
-                if (!tile.area.has(lane)) continue;
-                const auto i = std::size_t(lane);
-                store(tile.sums[i], tile.area.pixels[i].x, tile.area.pixels[i].y, result.layers);
-                row_dropped[std::size_t(row)] += std::uint64_t(dropped(tile.sums[i]));
-            }
-        }
-    });
-    for (std::size_t row = 0; row < row_rays.size(); ++row) {
-        add(result.rays, row_rays[row]);
-        result.layers.dropped_samples += row_dropped[row];
+    const FramePass pass{scene, settings, nets, frame, result};
+    const auto store_all = [&](const PixelSums& sums, glm::ivec2 p) {
+        store(sums, p.x, p.y, layers);
+    };
+    if (settings.estimator == Estimator::two_mode) {
+        if (demand) layers.sampled_real = demand(touched_pixels(pass), layers);
+        pass.over_tiles(layers.sampled_real, sample_tile, store_all);
+        return result;
     }
+    pass.over_tiles({}, sample_tile, store_all);
+    if (demand) layers.sampled_real = demand(changed_pixels(layers), layers);
+    pass.over_tiles(
+        layers.sampled_real,
+        [&](const TilePass& tile, std::uint32_t needed) {
+            light_real_surfaces(tile, needed, layers);
+        },
+        [&](const PixelSums& sums, glm::ivec2 p) { add_real_light(sums, p.x, p.y, layers); });
     return result;
 }
 

@@ -9,6 +9,7 @@
 #include "render/trace/real_geometry.h"
 
 #include <cstdint>
+#include <functional>
 
 namespace inlay {
 
@@ -67,10 +68,17 @@ struct TwoModeResult {
     RayCounts rays;
 };
 
-/// Samples every pixel. `frame` is part of the random numbers' key. Where no sample of a pixel
-/// meets virtual geometry, its e_rv_real equals its e_r to the bit. Non-finite samples are dropped
-/// and counted.
+/// Says of which pixels E_R is needed (not 0), once it is known where virtual geometry meets light
+/// samples on real surfaces, or where it changes their light (`touched`, not 0). The layers hold
+/// all else if E_R is sampled for itself, and nothing yet if both modes share their samples.
+using LightDemand = std::function<Image<std::uint8_t>(const Image<std::uint8_t>& touched,
+                                                      const NoisyLayers& layers)>;
+
+/// Samples every pixel; but where a `demand` is given, real surfaces only where it says so, and the
+/// rays against virtual geometry come first. `frame` is part of the random numbers' key. Where no
+/// sample of a pixel meets virtual geometry, its e_rv_real equals its e_r to the bit. Non-finite
+/// samples are dropped and counted.
 TwoModeResult sample_two_modes(const TwoModeScene& scene, const SamplingSettings& settings,
-                               std::uint32_t frame);
+                               std::uint32_t frame, const LightDemand& demand = {});
 
 }  // namespace inlay

@@ -17,7 +17,7 @@ constexpr double bandwidth = 4;   // 1/rad
 /// Noise in E_R, and E_RV = E_R + `change`.
 NoisyLayers plane_with_change(std::uint32_t seed, const Rgb& change, float rate = 2) {
     NoisyLayers layers = noisy_plane(48, 36, spacing, seed);
-    layers.change_rates = {Image<float>(48, 36, rate), Image<float>(48, 36, rate)};
+    layers.change_rates.direct = layers.change_rates.indirect = Image<float>(48, 36, rate);
     for (Irradiance* light : {&layers.direct, &layers.indirect})
         for (std::size_t i = 0; i < light->e_r.pixels.size(); ++i)
             light->e_rv_real.pixels[i] = light->e_r.pixels[i] + change;

@@ -55,6 +55,7 @@ TEST(ChangeCones, DirectionsTowardsTheSpheresAboveTheHorizonAllHaveADensity) {
             const glm::vec3 point = s.centre + s.radius * offset;
             if (!(point.y > 0)) continue;
             EXPECT_GT(pdf_cones(cones, glm::normalize(point)), 0) << glm::length(s.centre);
+            EXPECT_TRUE(may_hold(cones, glm::normalize(point))) << glm::length(s.centre);
         }
     }
 }

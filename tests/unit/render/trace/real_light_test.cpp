@@ -10,28 +10,29 @@
 namespace inlay::test {
 namespace {
 
-/// Samples of a pixel whose light changes by the share `share` of an open surface's, of which
-/// `taken` in direct light.
-int samples_at(double share, double taken, int secondary) {
+/// Samples of a pixel whose direct light changes by the share `share` of an open surface's.
+int samples_at(float share, int primary, int secondary, float hidden = 0) {
     const EnvironmentSampler sky = constant_environment(2);
     const RealGeometry none = no_real_geometry();
     const EmbreeScene empty;
     const TwoModeScene scene{telescope(1, 1), {}, none, empty, sky};
-    ChangeSums change;
-    change.camera_rays = 4;
-    const double whole = share * 2 * std::numbers::pi * change.camera_rays;
-    change.direct = glm::dvec3(-taken * whole);
-    change.indirect = glm::dvec3((1 - taken) * whole);
     SamplingSettings settings;
+    settings.primary = primary;
     settings.secondary = secondary;
-    return real_light_samples(scene, settings, change);
+    return real_light_samples(scene, settings, hidden, Rgb(-share * 2 * std::numbers::pi_v<float>));
 }
 
-TEST(RealLight, GetsFourTimesTheSamplesWhereAChangeIsPlainlySeen) {
-    for (const double taken : {0.0, 0.5, 1.0}) {
-        EXPECT_EQ(samples_at(0.1, taken, 16), 16);
-        EXPECT_EQ(samples_at(0.01, taken, 16), 4);
-    }
+TEST(RealLight, GetsMoreSamplesWhereAChangeIsPlainlySeen) {
+    EXPECT_EQ(samples_at(0.1f, 4, 16), 64);
+    EXPECT_EQ(samples_at(0.03f, 4, 16), 16);
+    EXPECT_EQ(samples_at(0.001f, 4, 16), 4);
+    EXPECT_EQ(samples_at(0, 4, 4), 1);
+}
+
+TEST(RealLight, WhatHidesTheSkyCountsAsAChange) {
+    EXPECT_EQ(samples_at(0, 4, 16, 0.1f), 64);
+    EXPECT_EQ(samples_at(0.04f, 4, 16, 0.04f), 64);
+    EXPECT_EQ(samples_at(0, 4, 16, 0.03f), 16);
 }
 
 TEST(RealLight, GetsOneSampleAtLeast) {

@@ -1,0 +1,39 @@
+// TilePass: 16 pixels of a frame while they are sampled, with what all their samples share.
+#pragma once
+
+#include "render/trace/pixel_tile.h"
+#include "render/trace/sample_pass.h"
+
+namespace inlay {
+
+/// What a tile's samples add up to.
+struct Tile {
+    PixelTile area;
+    std::array<PixelSums, packet_width> sums;
+    RayCounts rays;
+};
+
+/// The random numbers and rays of one tile.
+struct TilePass {
+    const TwoModeScene& scene;
+    const SamplingSettings& settings;
+    const LightNets& nets;
+    std::uint32_t frame;
+    Tile& tile;
+
+    SampleKeys keys(int sample) const;
+
+    /// Where camera ray `sample` of each pixel lands, of those in the bit mask `lanes`: the same
+    /// whenever it is asked.
+    Landings land_at(int sample, std::uint32_t lanes = ~0U) const;
+
+    /// One sample from `landings`, which must outlive it.
+    SamplePass from(const Landings& landings, const SampleKeys& keys) const;
+};
+
+/// The landings of one kind; the others count as nothing.
+Landings only(LandingKind kind, const Landings& landings);
+
+bool any_landing(const Landings& landings);
+
+}  // namespace inlay
