@@ -18,6 +18,13 @@ constexpr int check_interval = 10;
 /// Until there are prices.
 constexpr int first_samples = 4;
 
+/// Whether the session's next frame extracts the model.
+bool extracts_next(const Session& session) {
+    const GeometrySettings& geometry = session.settings.geometry;
+    return geometry.kind == RealGeometryKind::model &&
+           model_due(session.frames_seen, geometry.model_interval) != session.model.frame;
+}
+
 bool has_goal(const GovernedRun& run) { return run.goal.ms_per_frame || run.goal.error; }
 bool chooses(const GovernedRun& run) { return has_goal(run) || !run.choices.empty(); }
 
@@ -67,13 +74,14 @@ GovernedRun start_governed(const SamplingSettings& base, const Goal& goal, std::
 
 void choose_samples(GovernedRun& run, Session& session, int frame) {
     run.now = std::nullopt;
+    run.extracts = extracts_next(session);
     if (!chooses(run)) return;
     const auto known = run.choices.find(frame);
     require(known != run.choices.end() || has_goal(run),
             "--choices: frame " + std::to_string(frame) + " has none; leave it out with --frames",
             ExitCode::usage);
     if (known == run.choices.end()) {
-        if (run.governor) run.now = choose(*run.governor);
+        if (run.governor) run.now = choose(*run.governor, run.extracts);
         run.choices[frame] = run.now ? run.now->samples : first_samples;
     }
     session.settings.trace = with_samples(run.base, run.choices[frame]);
@@ -110,7 +118,7 @@ void learn_from(GovernedRun& run, Session& session, const RgbdFrame& frame, cons
         return;
     }
     if (!run.now) return;
-    Reached reached{sampling_ms, other_ms, {}};
+    Reached reached{sampling_ms, other_ms, run.extracts, {}};
     if (report.governor && report.governor->estimated_error)
         reached.error =
             *report.governor->estimated_error / error_at(run.governor->front, run.now->samples);

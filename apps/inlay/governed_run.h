@@ -31,6 +31,7 @@ struct GovernedRun {
     std::map<int, int> choices;        // of each frame so far, or of each frame of a run before
     std::optional<Governor> governor;  // once there is a front
     std::optional<Choice> now;         // of the frame at hand, if the governor made it
+    bool extracts = false;             // the frame at hand extracts the model
     int until_check = 0;               // frames until the error is estimated again
 };
 

@@ -24,14 +24,31 @@ double moved(double from, double to, double rate) {
     return from + rate * (std::clamp(to, from / largest_step, from * largest_step) - from);
 }
 
-Choice predict(const Governor& g, int samples) {
-    return {samples, g.other_ms + g.time_factor * ms_at(g.front, samples),
+Choice predict(const Governor& g, int samples, bool extracts) {
+    const double other = g.other_ms + (extracts ? g.extraction_ms : 0.0);
+    return {samples, other + g.time_factor * ms_at(g.front, samples),
             g.error_factor * error_at(g.front, samples)};
 }
 
 bool does(const Goal& goal, const Choice& choice) {
     return goal.ms_per_frame ? choice.ms <= aim * *goal.ms_per_frame
                              : choice.error <= aim * *goal.error;
+}
+
+/// The rest of a frame, which takes longer where the model is extracted.
+void learn_other(Governor& governor, double ms, bool extracted) {
+    if (extracted) {
+        if (!governor.knows_other) return;  // how much of it is the extraction?
+        governor.extraction_ms =
+            moved(governor.extraction_ms, std::max(0.0, ms - governor.other_ms), time_rate);
+    } else if (governor.knows_other) {
+        governor.other_ms = moved(governor.other_ms, ms, time_rate);
+    } else {
+        const double first = governor.other_ms;
+        governor.other_ms = std::min(ms, first);
+        governor.extraction_ms = first - governor.other_ms;
+        governor.knows_other = true;
+    }
 }
 
 }  // namespace
@@ -54,25 +71,25 @@ Governor start_governor(const Goal& goal, PriceFront front) {
     return governor;
 }
 
-Choice choose(const Governor& governor) {
+Choice choose(const Governor& governor, bool extracts) {
     const std::vector<int> ladder = sample_ladder();
     if (governor.goal.ms_per_frame) {
-        Choice best = predict(governor, ladder.front());
+        Choice best = predict(governor, ladder.front(), extracts);
         for (const int samples : ladder) {
-            const Choice choice = predict(governor, samples);
+            const Choice choice = predict(governor, samples, extracts);
             if (does(governor.goal, choice)) best = choice;
         }
         return best;
     }
     for (const int samples : ladder) {
-        const Choice choice = predict(governor, samples);
+        const Choice choice = predict(governor, samples, extracts);
         if (does(governor.goal, choice)) return choice;
     }
-    return predict(governor, ladder.back());
+    return predict(governor, ladder.back(), extracts);
 }
 
 void learn(Governor& governor, const Choice& choice, const Reached& reached) {
-    governor.other_ms = moved(governor.other_ms, reached.other_ms, time_rate);
+    learn_other(governor, reached.other_ms, reached.extracted);
     const double expected = ms_at(governor.front, choice.samples);
     if (reached.sampling_ms > 0 && expected > 0)
         governor.time_factor =

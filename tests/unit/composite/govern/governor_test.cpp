@@ -54,7 +54,7 @@ TEST(Governor, KeepsTheTimeWhileTheScenePricesChange) {
         const double sampling = dearer * stray * (10 + 5 * choice.samples), other = 45;
         late += sampling + other > 1.1 * *goal.ms_per_frame;
         early += sampling + other < 0.7 * *goal.ms_per_frame;  // a step of the ladder, and strays
-        learn(governor, choice, {sampling, other, {}});
+        learn(governor, choice, {sampling, other, false, {}});
     }
     EXPECT_LE(late, 10);
     EXPECT_LE(early, 10);
@@ -70,7 +70,7 @@ TEST(Governor, KeepsTheErrorThatItIsTold) {
         const Choice choice = choose(governor);
         const double factor = 2, error = factor * 0.08 / std::sqrt(choice.samples);
         missed += error > 1.2 * *goal.error;
-        Reached reached{100, 40, {}};
+        Reached reached{100, 40, false, {}};
         if (frame % 10 == 0)
             reached.error = factor * (0.9 + 0.2 * uniform({2, std::uint32_t(frame), 0, 0}, 0));
         learn(governor, choice, reached);
@@ -79,17 +79,32 @@ TEST(Governor, KeepsTheErrorThatItIsTold) {
     EXPECT_NEAR(governor.error_factor, 2, 0.3);
 }
 
+/// Every tenth frame takes 60 ms more than the other 40, and the first both: from the second one on
+/// its choice allows for that.
+TEST(Governor, FramesThatExtractTheModelAreForeseen) {
+    Governor governor = start_governor(by_time(300), {front.points, 100});
+    for (int frame = 0; frame < 40; ++frame) {
+        const bool extracts = frame % 10 == 0;
+        const Choice choice = choose(governor, extracts);
+        const double other = extracts ? 100 : 40, sampling = 10 + 5 * choice.samples;
+        EXPECT_LE(sampling + other, 300) << frame;
+        EXPECT_NEAR(choice.ms, sampling + other, frame < 2 ? 60 : 1e-6) << frame;
+        learn(governor, choice, {sampling, other, extracts, {}});
+    }
+    EXPECT_NEAR(governor.extraction_ms, 60, 1e-6);
+}
+
 TEST(Governor, APauseOfTheMachineIsNoPrice) {
     Governor governor = start_governor(by_time(200), front);
     const Choice before = choose(governor);
-    learn(governor, before, {1e6, 1e6, {}});
+    learn(governor, before, {1e6, 1e6, false, {}});
     EXPECT_LT(governor.time_factor, 2);
     EXPECT_LT(governor.other_ms, 80);
 }
 
 TEST(Governor, AFrameWithoutVirtualObjectsTeachesNoPrice) {
     Governor governor = start_governor(by_time(200), front);
-    learn(governor, choose(governor), {0, 40, {}});
+    learn(governor, choose(governor), {0, 40, false, {}});
     EXPECT_EQ(governor.time_factor, 1);
 }
 
