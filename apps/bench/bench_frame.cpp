@@ -3,6 +3,7 @@
 //
 //   bench_frame [RECORDING FRAME SCENE] [options of Google Benchmark]
 #include "composite/accuracy/unit.h"
+#include "recordings/base/keep_memory.h"
 #include "recordings/base/parallel.h"
 
 #include "apps/bench/bare_embree.h"
@@ -134,6 +135,7 @@ void print_ratio(const std::string& above, const std::string& below) {
 }
 
 int run(int argc, char** argv) {
+    keep_freed_memory();
     std::vector<std::string> words(argv + 1, argv + argc);
     const bool named = words.size() >= 3 && words[0].rfind("--", 0) != 0;
     const std::filesystem::path recording = named ? words[0] : INLAY_DEMO_RECORDING;

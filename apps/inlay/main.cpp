@@ -1,5 +1,6 @@
 // The program `inlay`: a table of commands, and one place where failures become exit codes.
 #include "recordings/base/check.h"
+#include "recordings/base/keep_memory.h"
 
 #include "apps/inlay/command.h"
 #include "apps/inlay/invocation.h"
@@ -95,6 +96,7 @@ int guarded_run(int argc, char** argv) {
 int main(int argc, char** argv) {
     std::signal(SIGXFSZ,
                 SIG_IGN);  // a file size limit is then an error of the write, as a full disk is
+    inlay::keep_freed_memory();
     log_to_stderr();
     inlay::remember_invocation(argc, argv);
     const int code = guarded_run(argc, argv);
