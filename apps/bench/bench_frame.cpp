@@ -10,6 +10,8 @@
 #include "apps/bench/thesis_rays.h"
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>

@@ -7,6 +7,7 @@
 #include "composite/session/obey_plan.h"
 #include "composite/session/real_scene.h"
 #include "composite/session/stop_watch.h"
+#include "recordings/base/check.h"
 #include "recordings/base/keep_memory.h"
 #include "render/filter/filter_layers.h"
 #include "slam/volume/raycast_volume.h"
@@ -107,8 +108,12 @@ Measured measure(const Subject& s, const View& view, const VirtualScene& objects
 /// Where a pixel's surface is, and a little above it.
 glm::dvec3 above(const Subject& s, glm::dvec2 share_of_image, double height) {
     glm::ivec2 p(share_of_image * glm::dvec2(s.surface.lens.width, s.surface.lens.height));
-    while (!s.surface.has_surface(p.x, p.y))
-        p += p.x < s.surface.lens.width / 2 ? glm::ivec2(1, 0) : glm::ivec2(-1, 0);
+    const int towards_middle = p.x < s.surface.lens.width / 2 ? 1 : -1;
+    while (!s.surface.has_surface(p.x, p.y)) {  // the depth image may have a hole there
+        p.x += towards_middle;
+        if (p.x <= 0 || p.x >= s.surface.lens.width - 1)
+            throw Error(ExitCode::bad_data, "no surface in a row of the frame; take another");
+    }
     const glm::dvec3 n =
         s.surface.world_from_camera.rotation * glm::dvec3(s.surface.normal(p.x, p.y));
     return s.surface.world_from_camera * glm::dvec3(s.surface.position(p.x, p.y)) + height * n;

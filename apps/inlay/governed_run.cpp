@@ -18,13 +18,6 @@ constexpr int check_interval = 10;
 /// Until there are prices.
 constexpr int first_samples = 4;
 
-/// Whether the session's next frame extracts the model.
-bool extracts_next(const Session& session) {
-    const GeometrySettings& geometry = session.settings.geometry;
-    return geometry.kind == RealGeometryKind::model &&
-           model_due(session.frames_seen, geometry.model_interval) != session.model.frame;
-}
-
 bool has_goal(const GovernedRun& run) { return run.goal.ms_per_frame || run.goal.error; }
 bool chooses(const GovernedRun& run) { return has_goal(run) || !run.choices.empty(); }
 
@@ -74,7 +67,7 @@ GovernedRun start_governed(const SamplingSettings& base, const Goal& goal, std::
 
 void choose_samples(GovernedRun& run, Session& session, int frame) {
     run.now = std::nullopt;
-    run.extracts = extracts_next(session);
+    run.extracts = model_is_due(session.model, session.frames_seen, session.settings.geometry);
     if (!chooses(run)) return;
     const auto known = run.choices.find(frame);
     require(known != run.choices.end() || has_goal(run),

@@ -38,9 +38,10 @@ bool does(const Goal& goal, const Choice& choice) {
 /// The rest of a frame, which takes longer where the model is extracted.
 void learn_other(Governor& governor, double ms, bool extracted) {
     if (extracted) {
-        if (!governor.knows_other) return;  // how much of it is the extraction?
-        governor.extraction_ms =
-            moved(governor.extraction_ms, std::max(0.0, ms - governor.other_ms), time_rate);
+        // How much of it is the extraction, an ordinary frame will tell.
+        double& learned = governor.knows_other ? governor.extraction_ms : governor.other_ms;
+        const double ordinary = governor.knows_other ? governor.other_ms : 0.0;
+        learned = moved(learned, std::max(0.0, ms - ordinary), time_rate);
     } else if (governor.knows_other) {
         governor.other_ms = moved(governor.other_ms, ms, time_rate);
     } else {

@@ -9,7 +9,7 @@ namespace {
 
 double light_samples(const SamplingSettings& s) { return double(s.primary) * s.secondary; }
 
-/// Per camera ray: half of the directions over the cones, at most, and the samples of E_R.
+/// Per camera ray: half of the directions over the cones, at most.
 double half_of_cones(const SamplingSettings& s) { return (s.secondary + 1) / 2; }
 
 template <class Test>

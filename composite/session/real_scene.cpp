@@ -71,14 +71,18 @@ int model_due(int frames_seen, int interval) {
     return frames_seen == 0 ? 0 : int(std::bit_floor(unsigned(frames_seen)));
 }
 
+bool model_is_due(const TracedModel& model, int frames_seen, const GeometrySettings& settings) {
+    if (settings.kind != RealGeometryKind::model) return false;
+    return model.frame != model_due(frames_seen, settings.model_interval) ||
+           model.mesh->parts().empty();
+}
+
 void update_model(TracedModel& model, const SlamState& slam, int frames_seen,
                   const GeometrySettings& settings) {
-    if (settings.kind != RealGeometryKind::model) return;
-    const int due = model_due(frames_seen, settings.model_interval);
-    if (model.frame == due && !model.mesh->parts().empty()) return;
+    if (!model_is_due(model, frames_seen, settings)) return;
     auto mesh = std::make_shared<const TriangleMesh>(extract_mesh(slam.volume));
     model.mesh = std::make_shared<const EmbreeScene>(model.cache.place(std::move(mesh)));
-    model.frame = due;
+    model.frame = model_due(frames_seen, settings.model_interval);
 }
 
 RealScene describe_real_scene(SurfaceMap surface, Image<Rgb> photo, const SlamState& slam,

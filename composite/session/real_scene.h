@@ -35,6 +35,9 @@ struct TracedModel {
 /// first of these 1, 2, 4, ..., since a young model grows with every view.
 int model_due(int frames_seen, int interval);
 
+/// Whether update_model would extract the model.
+bool model_is_due(const TracedModel& model, int frames_seen, const GeometrySettings& settings);
+
 /// Extracts and prepares the model if the settings ask for it and it is due. `frames_seen` counts
 /// the frames since the recording's first, whether or not they were composited.
 void update_model(TracedModel& model, const SlamState& slam, int frames_seen,

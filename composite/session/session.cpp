@@ -12,7 +12,9 @@ namespace {
 
 /// What the composite shows of E_R, if the settings ask for no more. `previous` must outlive it.
 LightDemand demand_of(const Settings& settings, const NoisyLayers* previous) {
-    if (!settings.skip) return {};
+    const bool all_is_read = settings.trace.estimator == Estimator::two_mode &&
+                             settings.filter.enabled && settings.filter.temporal;
+    if (!settings.skip || all_is_read) return {};
     return [&filter = settings.filter, previous](const auto& touched, const NoisyLayers& now) {
         return light_demand(touched, now, previous, filter);
     };

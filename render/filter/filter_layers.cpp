@@ -146,8 +146,8 @@ Image<float> smooth_light(const Frames& frames, const Receivers& receivers,
     Irradiance& out = is_direct ? result.direct : result.indirect;
     const bool as_ratio = is_direct && frames.open_sky != nullptr;
     const bool real = &receivers == &frames.real;
-    // E_R that was sampled for itself has little noise, and stays one frame's: what the frame before
-    // did not need, it need not have.
+    // E_R that was sampled for itself has little noise, and stays one frame's: what the frame
+    // before did not need, it need not have.
     const NoisyLayers* previous = real && sampled_apart(frames.now) ? nullptr : frames.previous;
     std::vector<const Image<Rgb>*> now, before;
     for (const Layer layer : layers) {

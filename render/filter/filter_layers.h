@@ -15,7 +15,8 @@ namespace inlay {
 /// or with a value that is not finite, are 0 and never used. S_RV is kept as it is where B_rho is
 /// 0. `previous`, the frame before (or null), adds its unfiltered values (Mehta 2015,
 /// eqs. 6.24-6.26) at the pixels that its own camera sees the same surface at, and nowhere else;
-/// pass null when the lights moved; one that was sampled by another estimator adds nothing. S_RV
+/// pass null when the lights moved; one that was sampled by another estimator adds nothing, and E_R
+/// that was sampled for itself does without it. S_RV
 /// does without, since it changes with the camera. `environment_bandwidth` is B_e (1/rad, see
 /// environment_bandwidth.h). bandwidth_direct and bandwidth_indirect hold 1 / sigma (1/m), mean of
 /// both axes, of the kind of receiver that covers more of the pixel; 0: no receiver, or only the

@@ -20,7 +20,8 @@ struct FilterSettings {
     double narrowest_change = 0.6;   // px, >= 0; the same, at 16 samples, for a change sampled for
                                      // itself, which is less noisy; it follows the samples
     double normal_stop_deg = 10.0;   // 0..90, exclusive; surfaces that turn further do not mix
-    bool temporal = true;            // use the previous frame's unfiltered values
+    bool temporal = true;            // use the previous frame's unfiltered values; of a change that
+                                     // was sampled for itself alone, and not of E_R beside it
     double rejection_distance = 3.0;  // px, > 0; last frame's surface must lie within
 };
 

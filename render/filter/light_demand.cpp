@@ -54,12 +54,13 @@ void add_changes_before(const NoisyLayers& now, const NoisyLayers& previous,
 Image<std::uint8_t> light_demand(const Image<std::uint8_t>& touched, const NoisyLayers& now,
                                  const NoisyLayers* previous, const FilterSettings& settings) {
     if (!settings.enabled) return touched;
+    if (settings.temporal && !sampled_apart(now))
+        return Image<std::uint8_t>(touched.width, touched.height, 1);
     // Where the composite shows a change, and from there where E_R is read.
     const int reach = 2 * settings.kernel_radius + settings.rate_reach;
     Image<std::uint8_t> needed = widened(touched, reach);
     const bool follows = settings.temporal && previous != nullptr;
     if (!follows || covers_most(needed)) return needed;
-    if (!sampled_apart(now)) return Image<std::uint8_t>(touched.width, touched.height, 1);
     if (!sampled_apart(*previous)) return needed;
     Image<std::uint8_t> changed = touched;
     add_changes_before(now, *previous, settings, changed);

@@ -83,10 +83,12 @@ void enclose(ChangeCones& cones) {
     Lanes least = Lanes::Ones();  // cosine of the angle to the far side of a cone
     for (std::size_t i = 0; i < count; i += lanes) {
         const Lanes height = lanes_at(&cones.height[i]), down = height.max(0.0f);
-        const Lanes to_axis = cones.middle.x * lanes_at(&cones.axis_x[i]) +
-                              cones.middle.y * lanes_at(&cones.axis_y[i]) +
-                              cones.middle.z * lanes_at(&cones.axis_z[i]);
-        const Lanes sine = (1 - to_axis * to_axis).max(0.0f).sqrt();
+        const Lanes x = cones.middle.x - lanes_at(&cones.axis_x[i]),
+                    y = cones.middle.y - lanes_at(&cones.axis_y[i]),
+                    z = cones.middle.z - lanes_at(&cones.axis_z[i]);
+        const Lanes square = x * x + y * y + z * z;  // of the chord: exact for small angles
+        const Lanes to_axis = 1 - 0.5f * square;
+        const Lanes sine = (square * (1 - 0.25f * square)).max(0.0f).sqrt();
         const Lanes far_side = to_axis * (1 - down) - sine * (down * (2 - down)).sqrt();
         const Lanes cosine = (to_axis > 0.0f).select(far_side, -Lanes::Ones());
         least = (height >= 0.0f).select(least.min(cosine), least);

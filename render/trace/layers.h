@@ -47,7 +47,8 @@ struct Unshadowed {
 /// samples.
 struct ChangeRates {
     Image<float> direct, indirect;
-    Image<float> share;  // of an even sky's irradiance that virtual surfaces hide: estimated, 0..1
+    Image<float> share;  // of an even sky's irradiance that virtual surfaces hide: estimated,
+                         // 0..1 in the mean
 };
 
 /// Per-pixel Monte Carlo estimates of one frame, with the camera that saw them.

@@ -15,12 +15,13 @@ using LaneCounts = std::array<int, packet_width>;
 /// made of does not matter.
 int real_light_samples(const TwoModeScene& scene, const SamplingSettings& settings, float hidden,
                        const Rgb& change);
+/// The largest number that it gives, per pixel.
 int most_real_light_samples(const SamplingSettings& settings);
 
 /// Samples E_R from the camera rays of each pixel that land on real surfaces, `counts` samples
 /// (0: none) spread evenly over settings.primary rays; those of rays that land elsewhere are left
 /// out. Where none of these rays lands on a real surface, the next one that does, of `camera_rays`
-/// in all, stands for them.
+/// in all, stands for the first of them.
 void sample_real_light(const TilePass& pass, const LaneCounts& counts, int camera_rays);
 
 }  // namespace inlay

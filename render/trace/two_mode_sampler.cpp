@@ -8,7 +8,6 @@
 #include "render/trace/tile_pass.h"
 
 #include <algorithm>
-#include <bit>
 #include <string>
 #include <utility>
 #include <vector>

@@ -22,7 +22,7 @@ enum class Estimator {
 struct SamplingSettings {
     Estimator estimator = Estimator::two_mode;
     int primary = 4;    // camera rays per pixel
-    int secondary = 4;  // light samples per camera ray; with `difference`, E_R gets a quarter
+    int secondary = 4;  // light samples per camera ray; with `difference`, E_R gets fewer
                         // where the change is too small to be seen
     int coverage = 32;  // camera rays per pixel that decide M and k_V where virtual surfaces are
                         // in view; light is gathered by the first `primary` of them, and on virtual

@@ -71,6 +71,7 @@ inline void expect_sound(const NoisyLayers& layers) {
     expect_sound(layers.indirect, change_apart);
     EXPECT_TRUE(sound(layers.change_rates.direct, "change_rates.direct"));
     EXPECT_TRUE(sound(layers.change_rates.indirect, "change_rates.indirect"));
+    EXPECT_TRUE(sound(layers.change_rates.share, "change_rates.share"));
     expect_sound(layers.real);
     expect_sound(layers.virtual_);
 }
@@ -98,6 +99,8 @@ inline bool same_bytes(const NoisyLayers& a, const NoisyLayers& b) {
            same_bytes(a.indirect, b.indirect) &&
            same_bytes(a.change_rates.direct, b.change_rates.direct) &&
            same_bytes(a.change_rates.indirect, b.change_rates.indirect) &&
+           same_bytes(a.change_rates.share, b.change_rates.share) &&
+           same_bytes(a.sampled_real, b.sampled_real) &&
            same_bytes(a.real, b.real) && same_bytes(a.virtual_, b.virtual_);
 }
 

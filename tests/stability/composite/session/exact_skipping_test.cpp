@@ -2,6 +2,7 @@
 #include "composite/session/prepare_scene.h"
 #include "composite/session/session.h"
 #include "recordings/readers/recording.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +27,8 @@ std::ostream& operator<<(std::ostream& out, const Place& place) { return out << 
 
 /// A ball of `radius` (m) in even light: most of the image is out of the reach of a small one.
 SceneFile ball_at(const Place& place, float radius) {
-    const fs::path file = fs::path(testing::TempDir()) / (std::string(place.name) + ".json");
+    const test::TemporaryFolder folder;
+    const fs::path file = folder / "scene.json";
     std::ofstream(file) << R"({"version": 1, "environment": {"ambient": [0.8, 0.8, 0.7], "lobes": [
             {"direction": [0.2, 1, 0], "sharpness": 6, "radiance": [2, 2, 2]}]},
         "objects": [{"name": "ball", "sphere": {"radius": )"
@@ -106,6 +108,16 @@ TEST_P(ExactSkipping, SharedSamplesGiveTheSameBytes) {
     const Skipped skipped = compare(recording, ball_at(GetParam(), 0.002f), settings);
     EXPECT_GT(skipped.pixels, skipped.all / 4) << "hardly anything was skipped";
     EXPECT_GT(skipped.rays, 0u);
+}
+
+/// With the frame before, the second frame reads what the first one did not show.
+TEST_P(ExactSkipping, SharedSamplesGiveTheSameBytesWithTheFrameBefore) {
+    const Recording recording = open_recording(GetParam().folder);
+    Settings settings;
+    settings.trace = with_samples(settings.trace, 1);
+    settings.trace.estimator = Estimator::two_mode;
+    settings.filter.kernel_radius = 3;
+    compare(recording, ball_at(GetParam(), 0.002f), settings);
 }
 
 const fs::path recordings = fs::path(INLAY_DATA_DIR) / "recordings";

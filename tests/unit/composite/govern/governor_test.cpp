@@ -94,6 +94,14 @@ TEST(Governor, FramesThatExtractTheModelAreForeseen) {
     EXPECT_NEAR(governor.extraction_ms, 60, 1e-6);
 }
 
+TEST(Governor, WhereEveryFrameExtractsTheirTimeIsLearned) {
+    Governor governor = start_governor(by_time(300), {front.points, 40});
+    for (int frame = 0; frame < 20; ++frame)
+        learn(governor, choose(governor, true), {100, 80, true, {}});
+    EXPECT_NEAR(governor.other_ms, 80, 1);
+    EXPECT_EQ(governor.extraction_ms, 0);
+}
+
 TEST(Governor, APauseOfTheMachineIsNoPrice) {
     Governor governor = start_governor(by_time(200), front);
     const Choice before = choose(governor);

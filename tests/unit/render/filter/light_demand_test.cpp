@@ -76,10 +76,12 @@ TEST(LightDemand, FollowsTheChangeOfTheFrameBefore) {
     EXPECT_NE(needed(5, 5), 0);
 }
 
-TEST(LightDemand, SharedSamplesAreAllNeededWithTheFrameBefore) {
-    const NoisyLayers before = plane(false);
-    const auto needed = light_demand(touched_at({5, 5}), plane(false), &before, narrow());
+TEST(LightDemand, SharedSamplesAreAllNeededForTheNextFrame) {
+    const auto needed = light_demand(touched_at({5, 5}), plane(false), nullptr, narrow());
     EXPECT_EQ(std::count(needed.pixels.begin(), needed.pixels.end(), 0), 0);
+    FilterSettings alone = narrow();
+    alone.temporal = false;
+    EXPECT_EQ(light_demand(touched_at({5, 5}), plane(false), nullptr, alone)(47, 35), 0);
 }
 
 }  // namespace

@@ -60,6 +60,28 @@ TEST(ChangeCones, DirectionsTowardsTheSpheresAboveTheHorizonAllHaveADensity) {
     }
 }
 
+/// A direction on the rim of every cone, all around: also where two cones nearly share their axis,
+/// so that the one that holds both is hardly larger.
+TEST(ChangeCones, TheConeAboutAllHoldsTheirRims) {
+    std::vector<std::vector<BoundingSphere>> cases = hard_bounds();
+    for (const float apart : {0.0f, 1e-5f, 1e-4f, 1e-3f, 1e-2f})
+        for (const float radius : {1e-3f, 0.1f, 0.9f})
+            cases.push_back({{{0, 1, 0}, radius}, {{apart, 1, 0}, 0.99f * radius}});
+    for (const auto& spheres : cases) {
+        const ChangeCones cones = cones_of(spheres);
+        for (std::size_t i = 0; i < std::size_t(cones.count); ++i) {
+            const glm::mat3 basis =
+                basis_about({cones.axis_x[i], cones.axis_y[i], cones.axis_z[i]});
+            const float down = cones.height[i], sine = std::sqrt(down * (2 - down));
+            for (int turn = 0; turn < 64; ++turn) {
+                const float around = 0.1f * float(turn);
+                const glm::vec3 rim{sine * std::cos(around), sine * std::sin(around), 1 - down};
+                EXPECT_TRUE(may_hold(cones, glm::normalize(basis * rim)));
+            }
+        }
+    }
+}
+
 /// An even sky's solid angle is 4 pi: the mean of density over even directions is 1 / (4 pi). 1e6
 /// even directions of a spiral (Fibonacci) hit a cone's rim to 1e-3 of the sphere.
 TEST(ChangeCones, DensitiesIntegrateToOne) {
