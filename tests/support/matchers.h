@@ -100,8 +100,8 @@ inline bool same_bytes(const NoisyLayers& a, const NoisyLayers& b) {
            same_bytes(a.change_rates.direct, b.change_rates.direct) &&
            same_bytes(a.change_rates.indirect, b.change_rates.indirect) &&
            same_bytes(a.change_rates.share, b.change_rates.share) &&
-           same_bytes(a.sampled_real, b.sampled_real) &&
-           same_bytes(a.real, b.real) && same_bytes(a.virtual_, b.virtual_);
+           same_bytes(a.sampled_real, b.sampled_real) && same_bytes(a.real, b.real) &&
+           same_bytes(a.virtual_, b.virtual_);
 }
 
 }  // namespace inlay::test
