@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include <cmath>
 #include <memory>
 
 namespace inlay {
@@ -20,6 +21,9 @@ struct CameraView {
     /// Index of the pixel where a point (m, camera frame) appears, -1 where none does. Points
     /// beyond the outermost rays have none, however the distortion might fold them back.
     int pixel_of(const glm::vec3& p_camera) const;
+
+    /// False if no point of a ball (m, camera frame) can be seen.
+    bool may_see(const glm::vec3& centre, float radius) const;
 };
 
 /// The view of a lens. Undistorting is slow, so the tables of the lenses used last are kept and
@@ -35,6 +39,15 @@ inline int CameraView::pixel_of(const glm::vec3& p) const {
     const int column = int(position.x + 1.5f) - 1, row = int(position.y + 1.5f) - 1;
     if (column < 0 || row < 0 || column >= lens.width || row >= lens.height) return -1;
     return row * lens.width + column;
+}
+
+inline bool CameraView::may_see(const glm::vec3& centre, float radius) const {
+    if (centre.z + radius <= 0) return false;
+    const auto beyond = [&](float edge, float along, float sign) {
+        return sign * (along - edge * centre.z) > radius * std::sqrt(1 + edge * edge);
+    };
+    return !beyond(highest.x, centre.x, 1) && !beyond(lowest.x, centre.x, -1) &&
+           !beyond(highest.y, centre.y, 1) && !beyond(lowest.y, centre.y, -1);
 }
 
 }  // namespace inlay

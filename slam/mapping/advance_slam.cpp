@@ -92,10 +92,10 @@ SurfaceMap uncertain(SurfaceMap surface) {
     return surface;
 }
 
-void learn(SlamState& state, const RgbdFrame& frame, const Observed& observed,
+void learn(SlamState& state, const RgbdFrame& frame, Observed& observed,
            const Pose& world_from_camera, const SlamSettings& settings) {
-    fuse_depth(state.volume, observed.smooth, frame.color, frame.lens, world_from_camera,
-               settings.fusion);
+    observed.pyramid.front().world_from_camera = world_from_camera;
+    fuse_surface(state.volume, observed.pyramid.front(), frame.color, settings.fusion);
     remember_view(state.keyframes, world_from_camera, observed.clean);
     state.before_last.reset();
     if (state.model && state.frames_lost == 0) state.before_last = state.model->world_from_camera;
@@ -133,7 +133,7 @@ SlamState start_slam(const SlamSettings& settings) {
 SlamStep advance_slam(SlamState& state, const RgbdFrame& frame, const SlamSettings& settings,
                       const std::optional<Pose>& known_world_from_camera) {
     require_sizes(frame);
-    const Observed observed = observe(frame, settings);
+    Observed observed = observe(frame, settings);
     SlamStep step;
     step.tracking = known_world_from_camera ? certain(*known_world_from_camera)
                                             : locate(state, frame, observed, settings);

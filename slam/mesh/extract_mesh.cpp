@@ -48,9 +48,8 @@ BrickDistances read_distances(VolumeSampler& sampler, const Brick& brick) {
     for (int k = 0; k <= brick_side; ++k) {
         for (int j = 0; j <= brick_side; ++j) {
             for (int i = 0; i <= brick_side; ++i, ++entry) {
-                const Voxel* voxel = sampler.voxel(brick.key * brick_side + glm::ivec3(i, j, k));
-                const bool seen = voxel && voxel->weight > 0;
-                distances[entry] = seen ? voxel->distance : unknown_distance;
+                const glm::ivec3 voxel = brick.key * brick_side + glm::ivec3(i, j, k);
+                distances[entry] = sampler.voxel(voxel).distance();
             }
         }
     }

@@ -1,6 +1,7 @@
 #include "slam/volume/fuse_depth.h"
 
 #include "recordings/base/check.h"
+#include "recordings/base/lanes.h"
 #include "recordings/base/parallel.h"
 #include "slam/depth/camera_view.h"
 #include "slam/depth/surface_from_depth.h"
@@ -14,11 +15,18 @@ namespace {
 
 constexpr float most_color_weight = 64;  // observations; then the mean slides
 
+/// What one pixel says about the space around its surface. All zero: nothing.
+struct PixelPlane {
+    glm::vec3 normal{0};  // camera frame
+    float offset = 0;     // m: points of the plane have dot(normal, p) = offset
+    float z = 0;          // m, of the surface
+    float weight = 0;     // observations that it counts for
+};
+
 /// What one frame says about space.
 struct Observation {
-    SurfaceMap surface;
-    Image<float> weight;  // observations that each pixel counts for, 0: not fused
-    Image<Rgb> color;     // linear; empty: none
+    Image<PixelPlane> planes;
+    Image<Rgb> color;  // linear; empty: none
     CameraView view;
     glm::mat3 camera_from_world;
     glm::vec3 translation;  // m, of camera_from_world
@@ -31,87 +39,129 @@ float observation_weight(const glm::vec3& p, const glm::vec3& n, const FusionSet
     return cosine * nearness * nearness;
 }
 
-Observation observe(const Image<float>& depth, const Image<EncodedRgb>& color, const Lens& lens,
-                    const Pose& world_from_camera, const FusionSettings& settings) {
-    const Pose camera_from_world = inverse(world_from_camera);
-    Observation seen{surface_from_depth(depth, lens, world_from_camera),
-                     Image<float>(lens.width, lens.height),
-                     color.empty() ? Image<Rgb>() : decode(color),
-                     camera_view(lens),
+Observation observe(const SurfaceMap& surface, const Image<EncodedRgb>& color,
+                    const FusionSettings& settings) {
+    const Pose camera_from_world = inverse(surface.world_from_camera);
+    const Lens& lens = surface.lens;
+    Observation seen{Image<PixelPlane>(lens.width, lens.height),
+                     color.empty() ? Image<Rgb>() : decode(color), camera_view(lens),
                      glm::mat3(camera_from_world.rotation),
                      glm::vec3(camera_from_world.translation)};
     parallel_rows(lens.height, [&](int y) {
         for (int x = 0; x < lens.width; ++x) {
-            if (!seen.surface.has_surface(x, y)) continue;
-            seen.weight(x, y) = observation_weight(seen.surface.position(x, y),
-                                                   seen.surface.normal(x, y), settings);
+            if (!surface.has_surface(x, y)) continue;
+            const glm::vec3 &p = surface.position(x, y), &n = surface.normal(x, y);
+            seen.planes(x, y) = {n, glm::dot(n, p), p.z, observation_weight(p, n, settings)};
         }
     });
     return seen;
 }
 
-void fold_color(Voxel& voxel, const Rgb& color) {
-    const float old = voxel.color_weight;
+void fold_color(Brick& brick, std::size_t slot, const Rgb& color) {
+    const float old = brick.color_weight[slot];
     for (int i = 0; i < 3; ++i) {
-        std::uint16_t& channel = voxel.color[std::size_t(i)];
+        std::uint16_t& channel = brick.color[std::size_t(i)][slot];
         const float mean = (old * float(channel) + 65535.0f * color[i]) / (old + 1);
         channel = std::uint16_t(std::clamp(mean, 0.0f, 65535.0f) + 0.5f);
     }
-    voxel.color_weight = std::uint16_t(std::min(old + 1, most_color_weight));
+    brick.color_weight[slot] = std::uint16_t(std::min(old + 1, most_color_weight));
 }
 
+/// Which of eight points (m, camera frame) the lens sees, and at which pixels; 0 for the others.
+struct SeenAt {
+    Lanes seen;
+    std::array<int, lane_count> pixel;
+};
+
+SeenAt pixels_of(const Vectors& p, const CameraView& view) {
+    Lanes seen = p.z > 0;
+    const Floats z = choose(seen, p.z, 1), x = p.x / z, y = p.y / z;
+    seen = seen && x >= view.lowest.x && x <= view.highest.x && y >= view.lowest.y &&
+           y <= view.highest.y;
+    Floats column = float(view.lens.fx) * x + float(view.lens.cx);
+    Floats row = float(view.lens.fy) * y + float(view.lens.cy);
+    for (std::size_t lane = 0; view.bent && lane < lane_count; ++lane) {
+        if (!seen[lane]) continue;
+        const glm::vec2 at(project(view.lens, {x[lane], y[lane], 1.0}));
+        column[lane] = at.x;
+        row[lane] = at.y;
+    }
+    column = stdx::floor(column + 0.5f);
+    row = stdx::floor(row + 0.5f);
+    seen = seen && column >= 0 && row >= 0 && column < float(view.lens.width) &&
+           row < float(view.lens.height);
+    const Ints pixel = stdx::static_simd_cast<Ints>(choose(seen, row, 0)) * view.lens.width +
+                       stdx::static_simd_cast<Ints>(choose(seen, column, 0));
+    return {seen, numbers_of(pixel)};
+}
+
+/// Folds what the frame says into the voxels of a brick from `slot` on, which are at `p`.
 /// Curless and Levoy 1996, eq. 3 and 4.
-void fold_distance(Voxel& voxel, float distance, float weight, float max_weight) {
-    voxel.distance = (voxel.weight * voxel.distance + weight * distance) / (voxel.weight + weight);
-    voxel.weight = std::min(voxel.weight + weight, max_weight);
-}
-
-void fold(Voxel& voxel, const glm::vec3& p, const Observation& seen, float truncation,
-          float max_weight) {
-    const int at = seen.view.pixel_of(p);
-    if (at < 0) return;
-    const auto pixel = std::size_t(at);
-    const float weight = seen.weight.pixels[pixel];
-    if (weight == 0) return;
-    const glm::vec3 from_surface = p - seen.surface.position.pixels[pixel];
-    const float behind = from_surface.z * glm::length(p) / p.z;
-    if (behind > truncation) return;
-    const float distance = glm::dot(from_surface, seen.surface.normal.pixels[pixel]) / truncation;
-    if (distance < -1) return;
-    fold_distance(voxel, std::min(1.0f, behind < -truncation ? 1.0f : distance), weight,
-                  max_weight);
-    if (!seen.color.empty() && std::abs(distance) < 0.5f) {
-        fold_color(voxel, seen.color.pixels[pixel]);
+void fold_row(Brick& brick, std::size_t slot, const Vectors& p, const Observation& seen,
+              float truncation, float max_weight) {
+    const SeenAt at = pixels_of(p, seen.view);
+    if (none_of(at.seen)) return;
+    const auto read = [&](auto member) {
+        return Floats([&](auto lane) {
+            return member(seen.planes.pixels[std::size_t(at.pixel[lane])]);
+        });
+    };
+    const Floats weight = read([](const PixelPlane& q) { return q.weight; });
+    const Floats beyond = p.z - read([](const PixelPlane& q) { return q.z; });
+    Lanes folded = at.seen && weight > 0;
+    const Floats behind = beyond * stdx::sqrt(dot(p, p)) / choose(folded, p.z, 1);
+    folded = folded && behind <= truncation;
+    if (none_of(folded)) return;
+    const Vectors normal{read([](const PixelPlane& q) { return q.normal.x; }),
+                         read([](const PixelPlane& q) { return q.normal.y; }),
+                         read([](const PixelPlane& q) { return q.normal.z; })};
+    const Floats offset = read([](const PixelPlane& q) { return q.offset; });
+    const Floats distance = (dot(p, normal) - offset) / truncation;
+    folded = folded && distance >= -1;
+    const Floats value = choose(behind < -truncation, 1, stdx::min(distance, Floats(1)));
+    Floats mean(&brick.distance[slot], stdx::vector_aligned);
+    Floats sum(&brick.weight[slot], stdx::vector_aligned);
+    where(folded, mean) =
+        (sum * mean + weight * value) / choose(folded, sum + weight, 1);
+    where(folded, sum) = stdx::min(sum + weight, Floats(max_weight));
+    mean.copy_to(&brick.distance[slot], stdx::vector_aligned);
+    sum.copy_to(&brick.weight[slot], stdx::vector_aligned);
+    if (seen.color.empty()) return;
+    const Lanes colored = folded && stdx::abs(distance) < 0.5f;
+    if (none_of(colored)) return;
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+        if (!colored[lane]) continue;
+        fold_color(brick, slot + lane, seen.color.pixels[std::size_t(at.pixel[lane])]);
     }
 }
 
-/// Whether a ball (m, camera frame) may hold points that the camera sees.
-bool in_view(const glm::vec3& centre, float radius, const CameraView& view) {
-    if (centre.z + radius <= 0) return false;
-    const auto beyond = [&](float edge, float along, float sign) {
-        return sign * (along - edge * centre.z) > radius * std::sqrt(1 + edge * edge);
-    };
-    return !beyond(view.highest.x, centre.x, 1) && !beyond(view.lowest.x, centre.x, -1) &&
-           !beyond(view.highest.y, centre.y, 1) && !beyond(view.lowest.y, centre.y, -1);
-}
-
-void fold_brick(Brick& brick, float voxel_size, float truncation, const Observation& seen,
+void fold_brick(Brick& brick, float voxel_size, const Observation& seen, float truncation,
                 float max_weight) {
-    const auto camera_point = [&](const glm::vec3& voxel) {
-        return seen.camera_from_world * (voxel * voxel_size) + seen.translation;
-    };
-    const glm::vec3 first(brick.key * brick_side);
-    const float radius = voxel_size * float(brick_side) * 0.87f;  // half a brick's diagonal
-    if (!in_view(camera_point(first + 3.5f), radius, seen.view)) return;
-    std::size_t slot = 0;
-    for (int k = 0; k < brick_side; ++k) {
-        for (int j = 0; j < brick_side; ++j) {
-            for (int i = 0; i < brick_side; ++i, ++slot) {
-                fold(brick.voxels[slot], camera_point(first + glm::vec3(i, j, k)), seen, truncation,
-                     max_weight);
-            }
-        }
+    const glm::vec3 step = seen.camera_from_world[0] * voxel_size;
+    const Floats lane = lane_numbers();
+    const Vectors steps{lane * step.x, lane * step.y, lane * step.z};
+    for (int row = 0; row < brick_side * brick_side; ++row) {
+        const glm::ivec3 first =
+            brick.key * brick_side + glm::ivec3(0, row % brick_side, row / brick_side);
+        const glm::vec3 p =
+            seen.camera_from_world * (glm::vec3(first) * voxel_size) + seen.translation;
+        fold_row(brick, std::size_t(row) * brick_side, {p.x + steps.x, p.y + steps.y, p.z + steps.z},
+                 seen, truncation, max_weight);
     }
+}
+
+/// Numbers of the bricks that the camera may see.
+std::vector<int> bricks_in_view(const VoxelVolume& volume, const Observation& seen) {
+    const float radius = volume.voxel_size * float(brick_side) * 0.87f;  // half a brick's diagonal
+    std::vector<int> numbers;
+    int number = 0;
+    for (const Brick& brick : volume.bricks) {
+        const glm::vec3 centre = (glm::vec3(brick.key * brick_side) + 3.5f) * volume.voxel_size;
+        if (seen.view.may_see(seen.camera_from_world * centre + seen.translation, radius))
+            numbers.push_back(number);
+        ++number;
+    }
+    return numbers;
 }
 
 }  // namespace
@@ -136,15 +186,21 @@ VoxelVolume make_volume(const FusionSettings& settings) {
     return volume;
 }
 
+void fuse_surface(VoxelVolume& volume, const SurfaceMap& surface, const Image<EncodedRgb>& color,
+                  const FusionSettings& settings) {
+    require(color.empty() || same_size(color, surface.position), "color and depth differ in size");
+    const Observation seen = observe(surface, color, settings);
+    allocate_bricks(volume, surface);
+    const std::vector<int> bricks = bricks_in_view(volume, seen);
+    parallel_for(int(bricks.size()), [&](int i) {
+        fold_brick(volume.bricks[std::size_t(bricks[std::size_t(i)])], volume.voxel_size, seen,
+                   volume.truncation, settings.max_weight);
+    });
+}
+
 void fuse_depth(VoxelVolume& volume, const Image<float>& depth, const Image<EncodedRgb>& color,
                 const Lens& lens, const Pose& world_from_camera, const FusionSettings& settings) {
-    require(color.empty() || same_size(color, depth), "color and depth differ in size");
-    const Observation seen = observe(depth, color, lens, world_from_camera, settings);
-    allocate_bricks(volume, seen.surface);
-    parallel_for(int(volume.bricks.size()), [&](int i) {
-        fold_brick(volume.bricks[std::size_t(i)], volume.voxel_size, volume.truncation, seen,
-                   settings.max_weight);
-    });
+    fuse_surface(volume, surface_from_depth(depth, lens, world_from_camera), color, settings);
 }
 
 }  // namespace inlay

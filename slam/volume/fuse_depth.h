@@ -5,6 +5,7 @@
 #include "recordings/base/image.h"
 #include "recordings/base/lens.h"
 #include "recordings/base/pose.h"
+#include "recordings/base/surface_map.h"
 #include "slam/volume/voxel_volume.h"
 
 namespace inlay {
@@ -23,11 +24,15 @@ void validate(const FusionSettings& settings);
 /// An empty volume.
 VoxelVolume make_volume(const FusionSettings& settings);
 
-/// Folds a filtered depth image (m, 0 = not measured) into every voxel within the truncation of the
+/// Folds the surface that a frame saw, at its pose, into every voxel within the truncation of the
 /// seen surface or in front of it: a weighted running mean of the distance to the surface's tangent
 /// plane. Curless and Levoy 1996, eq. 3 and 4; differs: the weight is capped, and it falls with
 /// distance and obliqueness as a structured-light camera's accuracy does. `color` may be empty,
-/// else it is registered to `depth`. Same bytes for any number of threads.
+/// else it is registered to the surface. Same bytes for any number of threads.
+void fuse_surface(VoxelVolume& volume, const SurfaceMap& surface, const Image<EncodedRgb>& color,
+                  const FusionSettings& settings);
+
+/// The same for a filtered depth image (m, 0 = not measured).
 void fuse_depth(VoxelVolume& volume, const Image<float>& depth, const Image<EncodedRgb>& color,
                 const Lens& lens, const Pose& world_from_camera, const FusionSettings& settings);
 

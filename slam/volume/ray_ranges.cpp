@@ -6,21 +6,21 @@ namespace inlay {
 namespace {
 
 constexpr int pixels_per_cell = 8;
+constexpr int reach = 2;  // voxels
 
 struct Box {
     glm::vec2 lowest{1e30f}, highest{-1e30f};
     ZRange z;
 };
 
-/// Bounds of a brick, grown by a voxel because trilinear reading reaches beyond it, as (x/z, y/z)
-/// and z. A brick across the near plane bounds nothing: it may appear anywhere.
+/// Bounds of a brick, grown by what a gradient reads around a point, as (x/z, y/z) and z. A brick across the near plane bounds nothing: it may appear anywhere.
 Box bounds(const Brick& brick, float voxel_size, const Pose& camera_from_world, float nearest) {
     const glm::mat3 rotation(camera_from_world.rotation);
     const glm::vec3 translation(camera_from_world.translation);
     Box box;
     for (int c = 0; c < 8; ++c) {
         const glm::ivec3 corner(c & 1, (c >> 1) & 1, c >> 2);
-        const glm::vec3 voxel(brick.key * brick_side - 1 + corner * (brick_side + 1));
+        const glm::vec3 voxel(brick.key * brick_side - reach + corner * (brick_side - 1 + 2 * reach));
         const glm::vec3 p = rotation * (voxel * voxel_size) + translation;
         box.z.nearest = std::min(box.z.nearest, std::max(p.z, nearest));
         box.z.farthest = std::max(box.z.farthest, p.z);
@@ -35,7 +35,8 @@ Box bounds(const Brick& brick, float voxel_size, const Pose& camera_from_world, 
     return box;
 }
 
-void mark(RayRanges& ranges, const Box& box) {
+/// Whether any cell of the grid sees the box; those that do take its range.
+bool mark(RayRanges& ranges, const Box& box) {
     const glm::vec2 size(ranges.cells.width, ranges.cells.height);
     const auto cell = [&](const glm::vec2& at) {
         return glm::clamp((at - ranges.lowest) * ranges.cells_per_unit, glm::vec2(-1), size);
@@ -48,6 +49,7 @@ void mark(RayRanges& ranges, const Box& box) {
             range.farthest = std::max(range.farthest, box.z.farthest);
         }
     }
+    return from.x < ranges.cells.width && from.y < ranges.cells.height && to.x >= 0 && to.y >= 0;
 }
 
 }  // namespace
@@ -60,9 +62,16 @@ RayRanges ray_ranges(const VoxelVolume& volume, const CameraView& view,
     ranges.lowest = view.lowest;
     ranges.cells_per_unit =
         glm::vec2(ranges.cells.width, ranges.cells.height) / (view.highest - view.lowest);
+    const float radius = volume.voxel_size * float(brick_side + 2 * reach) * 0.87f;
+    const glm::mat3 rotation(camera_from_world.rotation);
+    const glm::vec3 translation(camera_from_world.translation);
+    int number = 0;
     for (const Brick& brick : volume.bricks) {
+        const int own = number++;
+        const glm::vec3 centre = (glm::vec3(brick.key * brick_side) + 3.5f) * volume.voxel_size;
+        if (!view.may_see(rotation * centre + translation, radius)) continue;
         const Box box = bounds(brick, volume.voxel_size, camera_from_world, nearest);
-        if (box.z.farthest > nearest) mark(ranges, box);
+        if (box.z.farthest > nearest && mark(ranges, box)) ranges.bricks.push_back(own);
     }
     return ranges;
 }

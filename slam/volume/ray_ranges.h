@@ -5,6 +5,8 @@
 #include "slam/depth/camera_view.h"
 #include "slam/volume/voxel_volume.h"
 
+#include <vector>
+
 namespace inlay {
 
 /// Bounds of z over the bricks that a ray may meet.
@@ -16,6 +18,7 @@ struct ZRange {
 struct RayRanges {
     Image<ZRange> cells;
     glm::vec2 lowest{0}, cells_per_unit{0};
+    std::vector<int> bricks;  // numbers of those that a ray may meet, ascending
 
     const ZRange& of(const glm::vec3& ray) const {
         const glm::vec2 at = (glm::vec2(ray) - lowest) * cells_per_unit;

@@ -3,93 +3,163 @@
 #include "recordings/base/check.h"
 #include "recordings/base/parallel.h"
 #include "slam/depth/camera_view.h"
+#include "slam/volume/brick_grid.h"
 #include "slam/volume/ray_ranges.h"
-#include "slam/volume/sample_volume.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
-#include <optional>
 
 namespace inlay {
 namespace {
 
 constexpr float surely_far = 0.7f;  // of the truncation; nearer, the field is read trilinearly
 constexpr float caution = 0.8f;     // share of the distance that a ray advances
+constexpr int refinements = 2;      // of a crossing
 
-/// A ray in voxel units, by z in metres.
-struct VoxelRay {
-    glm::vec3 eye, direction;  // voxels, voxels per metre of z
-    float truncation;          // m of z that the ray needs for one truncation
-    glm::vec3 at(float z) const { return eye + z * direction; }
+/// Eight neighbouring pixels' rays in the voxels of a grid, by z in metres.
+struct Rays {
+    glm::vec3 eye;               // voxels
+    Vectors direction, inverse;  // voxels per metre of z, and metres of z per voxel
+    Floats truncation;           // m of z that a ray needs for one truncation
+    Floats voxel;                // m of z that it needs for one voxel
+    Floats nearest, farthest;    // m, where it looks
+
+    Vectors at(const Floats& z) const {
+        return {eye.x + z * direction.x, eye.y + z * direction.y, eye.z + z * direction.z};
+    }
 };
 
-/// z at which the ray leaves the cells of the brick that holds `p`, and a little more.
-float z_beyond_brick(const VoxelRay& ray, const glm::vec3& p, const glm::ivec3& key, float z) {
-    float ahead = std::numeric_limits<float>::max();
-    for (int i = 0; i < 3; ++i) {
-        if (ray.direction[i] == 0) continue;
-        const float wall = float(key[i] * brick_side) + (ray.direction[i] > 0 ? 7.5f : -0.5f);
-        ahead = std::min(ahead, (wall - p[i]) / ray.direction[i]);
-    }
-    return z + std::max(ahead, 0.0f) + 0.02f / glm::length(ray.direction);
+/// Metres of z until rays leave the cells of the bricks that hold the points, and a little more.
+Floats beyond_brick(const Rays& rays, const Vectors& p) {
+    const auto ahead = [](const Floats& x, const Floats& direction, const Floats& inverse) {
+        const Floats first = stdx::floor((x + 0.5f) * (1.0f / brick_side)) * float(brick_side);
+        const Floats wall = first + choose(direction > 0, brick_side - 0.5f, -0.5f);
+        return (wall - x) * inverse;
+    };
+    const Floats x = ahead(p.x, rays.direction.x, rays.inverse.x);
+    const Floats y = ahead(p.y, rays.direction.y, rays.inverse.y);
+    const Floats z = ahead(p.z, rays.direction.z, rays.inverse.z);
+    return stdx::max(stdx::min(stdx::min(x, y), z), Floats(0)) + 0.02f * rays.voxel;
 }
 
-/// Sharpens a zero crossing between z0 (distance d0 > 0) and z1 (distance d1 <= 0).
-float crossing(VolumeSampler& sampler, const VoxelRay& ray, float z0, float d0, float z1,
-               float d1) {
-    float z = z0 + (z1 - z0) * d0 / (d0 - d1);
-    for (int i = 0; i < 2; ++i) {
-        const float d = sampler.distance(ray.at(z));
-        if (!is_known(d) || d == 0) break;
-        (d > 0 ? z0 : z1) = z;
-        (d > 0 ? d0 : d1) = d;
-        z = z0 + (z1 - z0) * d0 / (d0 - d1);
-    }
-    return z;
-}
+/// Where rays pass from the free side (z0, d0 > 0) to the other (z1, d1 <= 0).
+struct Crossings {
+    Lanes met{false};
+    Floats z0 = 0, d0 = 1, z1 = 0, d1 = 0;
 
-/// z of the first passage from the free side to the other; empty if there is none in the range.
-std::optional<float> first_crossing(VolumeSampler& sampler, const VoxelRay& ray,
-                                    const ZRange& range) {
-    const float half_voxel = 0.5f / glm::length(ray.direction);
-    float z = range.nearest, z_free = 0, d_free = -1;  // the last point known to be free
-    while (z <= range.farthest) {
-        const glm::vec3 p = ray.at(z);
-        const glm::ivec3 nearest(glm::floor(p + 0.5f));
-        const glm::ivec3 key = brick_of(nearest);
-        const Brick* brick = sampler.brick(key);
-        if (!brick) {
-            d_free = -1;
-            z = z_beyond_brick(ray, p, key, z);
-            continue;
-        }
-        const Voxel& voxel = brick->voxels[std::size_t(slot_in_brick(nearest))];
-        float d = voxel.weight > 0 ? voxel.distance : unknown_distance;
-        if (std::abs(d) < surely_far) d = sampler.distance(p);
-        if (d <= 0 && d_free > 0) return crossing(sampler, ray, z_free, d_free, z, d);
-        const bool free = d > 0 && is_known(d);
-        d_free = free ? d : -1;
+    Floats z() const { return z0 + (z1 - z0) * d0 / (d0 - d1); }
+};
+
+/// The first passages in the ranges.
+Crossings first_crossings(const BrickGrid& grid, const Rays& rays) {
+    Crossings found;
+    Floats z = rays.nearest, z_free = 0, d_free = -1;  // the last points known to be free
+    Lanes going = z <= rays.farthest;
+    while (any_of(going)) {
+        const Vectors p = rays.at(z);
+        Floats d = grid.nearest_distance(p);
+        const Lanes absent = d > unknown_distance;
+        const Lanes near = going && stdx::abs(d) < surely_far;
+        if (any_of(near)) where(near, d) = grid.distance(p);
+        const Lanes met = going && d <= 0 && d_free > 0;
+        found.met = found.met || met;
+        where(met, found.z0) = z_free;
+        where(met, found.d0) = d_free;
+        where(met, found.z1) = z;
+        where(met, found.d1) = d;
+        const Lanes free = d > 0 && d < 1.5f;
+        d_free = choose(free, d, -1);
         z_free = z;
-        z += free ? std::max(half_voxel, caution * d * ray.truncation) : half_voxel;
+        const Floats short_step = 0.5f * rays.voxel;
+        Floats step = choose(free, stdx::max(short_step, caution * d * rays.truncation), short_step);
+        if (any_of(absent && going)) where(absent, step) = beyond_brick(rays, p);
+        going = going && !met;
+        where(going, z) += step;
+        going = going && z <= rays.farthest;
     }
-    return std::nullopt;
+    return found;
 }
 
-void see(SurfaceMap& map, int x, int y, VolumeSampler& sampler, const VoxelRay& ray, float z,
-         const glm::vec3& ray_camera, const RaycastSettings& settings) {
-    const glm::vec3 p = ray.at(z);
-    const Voxel* voxel = sampler.voxel(glm::ivec3(glm::floor(p + 0.5f)));
-    if (!voxel || voxel->weight <= settings.least_weight) return;
-    const glm::vec3 gradient = sampler.gradient(p);
-    const float steepness = glm::length(gradient);
-    if (!(steepness > 0)) return;
-    const glm::vec3 normal =
-        glm::transpose(glm::mat3(map.world_from_camera.rotation)) * (gradient / steepness);
-    if (glm::dot(normal, ray_camera) >= 0) return;
-    map.position(x, y) = z * ray_camera;
-    map.normal(x, y) = normal;
-    map.confidence(x, y) = std::min(1.0f, voxel->weight / settings.full_confidence);
+/// Sharpens crossings by regula falsi.
+void refine(Crossings& found, const BrickGrid& grid, const Rays& rays) {
+    for (int i = 0; i < refinements; ++i) {
+        const Floats z = found.z(), d = grid.distance(rays.at(z));
+        const Lanes free = found.met && d > 0 && d < 1.5f, solid = found.met && d < 0;
+        where(free, found.z0) = z;
+        where(free, found.d0) = d;
+        where(solid, found.z1) = z;
+        where(solid, found.d1) = d;
+    }
+}
+
+/// What a raycast works on.
+struct View {
+    const BrickGrid& grid;
+    const CameraView& camera;
+    const RayRanges& ranges;
+    const RaycastSettings& settings;
+    glm::mat3 voxels_from_camera;  // directions: voxels per metre
+    glm::mat3 camera_from_world;
+    glm::vec3 eye;     // voxels of the grid
+    float truncation;  // m
+};
+
+Floats safe_inverse(const Floats& x) {
+    return 1 / choose(stdx::abs(x) > 1e-12f, x, 1e-12f);
+}
+
+/// The rays of pixels (x, y) to (x + 7, y); those beyond the row look nowhere.
+Rays rays_of(const View& view, int x, int y) {
+    const Image<glm::vec3>& table = *view.camera.rays;
+    std::array<glm::vec3, lane_count> directions;
+    std::array<float, lane_count> length, nearest, farthest;
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+        const int column = x + int(lane);
+        const glm::vec3& ray = table(std::min(column, table.width - 1), y);
+        const ZRange& range = view.ranges.of(ray);
+        directions[lane] = view.voxels_from_camera * ray;
+        length[lane] = glm::length(ray);
+        nearest[lane] = std::min(range.nearest, view.settings.farthest);
+        farthest[lane] = std::min(range.farthest, view.settings.farthest);
+        if (column >= table.width) farthest[lane] = -1;
+    }
+    Rays rays;
+    rays.eye = view.eye;
+    rays.direction = {Floats([&](auto lane) { return directions[lane].x; }),
+                      Floats([&](auto lane) { return directions[lane].y; }),
+                      Floats([&](auto lane) { return directions[lane].z; })};
+    rays.inverse = {safe_inverse(rays.direction.x), safe_inverse(rays.direction.y),
+                    safe_inverse(rays.direction.z)};
+    rays.truncation = view.truncation / Floats(length.data(), stdx::element_aligned);
+    rays.voxel = 1 / stdx::sqrt(dot(rays.direction, rays.direction));
+    rays.nearest.copy_from(nearest.data(), stdx::element_aligned);
+    rays.farthest.copy_from(farthest.data(), stdx::element_aligned);
+    return rays;
+}
+
+/// Writes what the rays of pixels from (x, y) on met at `z`.
+void write(SurfaceMap& map, int x, int y, const View& view, const Rays& rays,
+           const Crossings& found) {
+    const auto z = numbers_of(found.z());
+    const Vectors p = rays.at(found.z());
+    const Vectors gradient = view.grid.gradient(p);
+    const Floats steepness = stdx::sqrt(dot(gradient, gradient));
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+        if (!found.met[lane] || !(steepness[lane] > 0)) continue;
+        const float weight =
+            view.grid.nearest_weight({p.x[lane], p.y[lane], p.z[lane]});
+        if (weight <= view.settings.least_weight) continue;
+        const glm::vec3& ray = (*view.camera.rays)(x + int(lane), y);
+        const glm::vec3 normal =
+            view.camera_from_world *
+            (glm::vec3(gradient.x[lane], gradient.y[lane], gradient.z[lane]) / steepness[lane]);
+        if (glm::dot(normal, ray) >= 0) continue;
+        const auto pixel = map.position.index(x + int(lane), y);
+        map.position.pixels[pixel] = z[lane] * ray;
+        map.normal.pixels[pixel] = normal;
+        map.confidence.pixels[pixel] = std::min(1.0f, weight / view.settings.full_confidence);
+    }
 }
 
 }  // namespace
@@ -106,21 +176,28 @@ void validate(const RaycastSettings& s) {
 SurfaceMap raycast_volume(const VoxelVolume& volume, const Lens& lens,
                           const Pose& world_from_camera, const RaycastSettings& settings) {
     SurfaceMap map = empty_surface_map(lens, world_from_camera);
-    const CameraView view = camera_view(lens);
-    const RayRanges ranges = ray_ranges(volume, view, inverse(world_from_camera), settings.nearest);
-    const glm::mat3 rotation(world_from_camera.rotation);
-    const float voxels_per_metre = 1.0f / volume.voxel_size;
-    const glm::vec3 eye = glm::vec3(world_from_camera.translation) * voxels_per_metre;
+    const CameraView camera = camera_view(lens);
+    const RayRanges ranges =
+        ray_ranges(volume, camera, inverse(world_from_camera), settings.nearest);
+    if (ranges.bricks.empty()) return map;
+    const BrickGrid grid(volume, ranges.bricks);
+    const double voxels_per_metre = 1.0 / double(volume.voxel_size);
+    const View view{grid,
+                    camera,
+                    ranges,
+                    settings,
+                    glm::mat3(world_from_camera.rotation * voxels_per_metre),
+                    glm::mat3(glm::transpose(world_from_camera.rotation)),
+                    glm::vec3(world_from_camera.translation * voxels_per_metre -
+                              glm::dvec3(grid.origin())),
+                    volume.truncation};
     parallel_rows(lens.height, [&](int y) {
-        VolumeSampler sampler(volume);
-        for (int x = 0; x < lens.width; ++x) {
-            const glm::vec3& direction = (*view.rays)(x, y);
-            ZRange range = ranges.of(direction);
-            range.farthest = std::min(range.farthest, settings.farthest);
-            const VoxelRay ray{eye, rotation * direction * voxels_per_metre,
-                               volume.truncation / glm::length(direction)};
-            const auto z = first_crossing(sampler, ray, range);
-            if (z) see(map, x, y, sampler, ray, *z, direction, settings);
+        for (int x = 0; x < lens.width; x += lane_count) {
+            const Rays rays = rays_of(view, x, y);
+            Crossings found = first_crossings(grid, rays);
+            if (!any_of(found.met)) continue;
+            refine(found, grid, rays);
+            write(map, x, y, view, rays, found);
         }
     });
     return map;

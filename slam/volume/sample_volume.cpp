@@ -5,6 +5,8 @@
 namespace inlay {
 namespace {
 
+glm::ivec3 corner_offset(int corner) { return {corner & 1, (corner >> 1) & 1, corner >> 2}; }
+
 float corner_weight(int corner, const glm::vec3& f) {
     return ((corner & 1) ? f.x : 1 - f.x) * ((corner & 2) ? f.y : 1 - f.y) *
            ((corner & 4) ? f.z : 1 - f.z);
@@ -18,36 +20,17 @@ const Brick* VolumeSampler::brick(const glm::ivec3& key) {
     return known.brick;
 }
 
-const Voxel* VolumeSampler::voxel(const glm::ivec3& v) {
-    const Brick* found = brick(brick_of(v));
-    return found ? &found->voxels[std::size_t(slot_in_brick(v))] : nullptr;
-}
-
-std::array<const Voxel*, 8> VolumeSampler::corners(const glm::ivec3& base) {
-    std::array<const Voxel*, 8> result{};
-    const glm::ivec3 inside = base & 7;
-    if (inside.x < 7 && inside.y < 7 && inside.z < 7) {
-        const Voxel* first = voxel(base);
-        if (!first) return result;
-        for (int c = 0; c < 8; ++c) {
-            result[std::size_t(c)] = first + (c & 1) + 8 * ((c >> 1) & 1) + 64 * (c >> 2);
-        }
-        return result;
-    }
-    for (int c = 0; c < 8; ++c) {
-        result[std::size_t(c)] = voxel(base + glm::ivec3(c & 1, (c >> 1) & 1, c >> 2));
-    }
-    return result;
+VoxelPlace VolumeSampler::voxel(const glm::ivec3& v) {
+    return {brick(brick_of(v)), std::size_t(slot_in_brick(v))};
 }
 
 float VolumeSampler::distance(const glm::vec3& p) {
     const glm::vec3 base = glm::floor(p);
-    const auto voxels = corners(glm::ivec3(base));
     float sum = 0;
     for (int c = 0; c < 8; ++c) {
-        const Voxel* v = voxels[std::size_t(c)];
-        if (!v || v->weight == 0) return unknown_distance;
-        sum += corner_weight(c, p - base) * v->distance;
+        const float d = voxel(glm::ivec3(base) + corner_offset(c)).distance();
+        if (!is_known(d)) return unknown_distance;
+        sum += corner_weight(c, p - base) * d;
     }
     return sum;
 }
@@ -72,14 +55,13 @@ glm::vec3 VolumeSampler::gradient(const glm::vec3& p) {
 
 std::optional<Rgb> volume_color(VolumeSampler& sampler, const glm::vec3& p_voxels) {
     const glm::vec3 base = glm::floor(p_voxels);
-    const auto voxels = sampler.corners(glm::ivec3(base));
     Rgb sum(0);
     float weight = 0;
     for (int c = 0; c < 8; ++c) {
-        const Voxel* v = voxels[std::size_t(c)];
-        if (!v || v->color_weight == 0) continue;
+        const auto [brick, slot] = sampler.voxel(glm::ivec3(base) + corner_offset(c));
+        if (!brick || brick->color_weight[slot] == 0) continue;
         const float w = corner_weight(c, p_voxels - base) + 1e-6f;  // so that one voxel is enough
-        sum += w * Rgb(v->color[0], v->color[1], v->color[2]);
+        sum += w * Rgb(brick->color[0][slot], brick->color[1][slot], brick->color[2][slot]);
         weight += w;
     }
     if (weight == 0) return std::nullopt;

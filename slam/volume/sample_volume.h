@@ -1,6 +1,7 @@
 // The distance field between the voxels: trilinear distance, gradient and color.
 #pragma once
 
+#include "recordings/base/color.h"
 #include "slam/volume/voxel_volume.h"
 
 #include <glm/glm.hpp>
@@ -10,9 +11,14 @@
 
 namespace inlay {
 
-/// What VolumeSampler::distance() gives where the distance is not known. Distances end at 1.
-constexpr float unknown_distance = 2;
-inline bool is_known(float distance) { return distance < 1.5f; }
+/// Where a voxel is stored; nowhere where nothing is allocated.
+struct VoxelPlace {
+    const Brick* brick = nullptr;
+    std::size_t slot = 0;
+
+    float distance() const { return brick ? brick->distance[slot] : unknown_distance; }
+    float weight() const { return brick ? brick->weight[slot] : 0; }
+};
 
 /// Reads a volume at many nearby points: it remembers the bricks that it read last. Points are in
 /// voxel units: p_world / voxel_size.
@@ -26,12 +32,8 @@ public:
     /// Gradient of the distance per voxel, over two voxels, or one at the border of what was seen;
     /// 0 where it is not known.
     glm::vec3 gradient(const glm::vec3& p);
-    /// The voxel at a lattice position, or null.
-    const Voxel* voxel(const glm::ivec3& v);
-    /// The brick at `key`, or null.
-    const Brick* brick(const glm::ivec3& key);
-    /// The eight voxels around a point, x fastest; null where nothing is allocated.
-    std::array<const Voxel*, 8> corners(const glm::ivec3& base);
+    /// The voxel at a lattice position.
+    VoxelPlace voxel(const glm::ivec3& v);
 
 private:
     struct Known {
@@ -39,6 +41,8 @@ private:
         const Brick* brick = nullptr;
         bool read = false;
     };
+    const Brick* brick(const glm::ivec3& key);
+
     const VoxelVolume* volume_;
     std::array<Known, 8> known_;  // by the parity of the key: bricks that meet have places apart
 };

@@ -17,9 +17,4 @@ int ensure_brick(VoxelVolume& volume, const glm::ivec3& key) {
     return number;
 }
 
-const Voxel* find_voxel(const VoxelVolume& volume, const glm::ivec3& voxel) {
-    const Brick* brick = find_brick(volume, brick_of(voxel));
-    return brick ? &brick->voxels[std::size_t(slot_in_brick(voxel))] : nullptr;
-}
-
 }  // namespace inlay

@@ -1,7 +1,6 @@
 // VoxelVolume: a truncated signed distance field in bricks of 8 x 8 x 8 voxels, found by hashing.
 #pragma once
 
-#include "recordings/base/color.h"
 #include "slam/volume/brick_index.h"
 
 #include <glm/glm.hpp>
@@ -15,17 +14,23 @@ namespace inlay {
 constexpr int brick_side = 8;  // voxels
 constexpr int brick_voxels = brick_side * brick_side * brick_side;
 
-struct Voxel {
-    float distance = 1;                    // of the truncation, -1..1; positive on the free side
-    float weight = 0;                      // observations; 0: never seen
-    std::array<std::uint16_t, 3> color{};  // linear, 65535 = 1
-    std::uint16_t color_weight = 0;        // observations of the color; 0: none
-};
+/// The distance of a voxel that was never seen. Distances that are known end at 1.
+constexpr float unknown_distance = 2;
+inline bool is_known(float distance) { return distance < 1.5f; }
 
-/// Voxel (i, j, k) of a brick is voxels[(k * 8 + j) * 8 + i].
+/// Eight voxels a side, a plane of numbers for each property, so that rows of eight are read and
+/// written at once. Voxel (i, j, k) is entry (k * 8 + j) * 8 + i.
 struct Brick {
-    glm::ivec3 key{0};  // in bricks: its first voxel is 8 * key
-    std::array<Voxel, brick_voxels> voxels;
+    template <class Value>
+    using Plane = std::array<Value, brick_voxels>;
+
+    Brick() { distance.fill(unknown_distance); }
+
+    glm::ivec3 key{0};                      // in bricks: its first voxel is 8 * key
+    alignas(32) Plane<float> distance;      // of the truncation, -1..1; positive on the free side
+    alignas(32) Plane<float> weight{};      // observations; 0: never seen
+    std::array<Plane<std::uint16_t>, 3> color{};  // linear, 65535 = 1
+    Plane<std::uint16_t> color_weight{};    // observations of the color; 0: none
 };
 
 /// The fused model. Voxel v has its centre at v * voxel_size (world, m). Bricks are numbered in the
@@ -50,8 +55,5 @@ const Brick* find_brick(const VoxelVolume& volume, const glm::ivec3& key);
 
 /// The number of the brick at `key`, which is allocated (empty) if it is not there.
 int ensure_brick(VoxelVolume& volume, const glm::ivec3& key);
-
-/// The voxel at lattice position `voxel`, or null where nothing is allocated.
-const Voxel* find_voxel(const VoxelVolume& volume, const glm::ivec3& voxel);
 
 }  // namespace inlay

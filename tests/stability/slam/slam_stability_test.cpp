@@ -76,9 +76,14 @@ TEST_F(SlamTraps, ABadDepthValueNeverReachesTheModel) {
                   0.01);  // a voxel
     }
     for (const Brick& brick : state.volume.bricks) {
-        for (const Voxel& voxel : brick.voxels) {
-            ASSERT_TRUE(voxel.distance >= -1 && voxel.distance <= 1);
-            ASSERT_TRUE(voxel.weight >= 0 && voxel.weight <= settings.fusion.max_weight);
+        for (std::size_t i = 0; i < brick_voxels; ++i) {
+            const float distance = brick.distance[i], weight = brick.weight[i];
+            ASSERT_TRUE(weight >= 0 && weight <= settings.fusion.max_weight);
+            if (weight == 0) {
+                ASSERT_EQ(distance, unknown_distance);
+            } else {
+                ASSERT_TRUE(distance >= -1 && distance <= 1);
+            }
         }
     }
     for (const glm::vec3& n : extract_mesh(state.volume).normals) {

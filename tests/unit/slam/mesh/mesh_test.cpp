@@ -36,11 +36,12 @@ VoxelVolume filled(int bricks, const std::function<float(const glm::vec3&)>& dis
     for (Brick& brick : volume.bricks) {
         for (int i = 0; i < brick_voxels; ++i) {
             const glm::ivec3 voxel = brick.key * 8 + glm::ivec3(i & 7, (i >> 3) & 7, i >> 6);
-            Voxel& v = brick.voxels[std::size_t(i)];
-            v.distance = std::clamp(distance(glm::vec3(voxel)), -1.0f, 1.0f);
-            v.weight = 1;
-            v.color = {65535, 0, 13107};
-            v.color_weight = 1;
+            const auto slot = std::size_t(i);
+            brick.distance[slot] = std::clamp(distance(glm::vec3(voxel)), -1.0f, 1.0f);
+            brick.weight[slot] = 1;
+            brick.color[0][slot] = 65535;
+            brick.color[2][slot] = 13107;
+            brick.color_weight[slot] = 1;
         }
     }
     return volume;
@@ -114,9 +115,9 @@ TEST(ExtractMesh, AnyFieldThatIsClosedGivesAClosedMesh) {
 TEST(ExtractMesh, UnknownSpaceIsNotClosedByASurface) {
     VoxelVolume volume = filled(2, [](const glm::vec3& p) { return p.z / 4; });
     for (Brick& brick : volume.bricks) {
-        for (int i = 0; i < brick_voxels; ++i) {
-            if (brick.key.x < 0) brick.voxels[std::size_t(i)].weight = 0;
-        }
+        if (brick.key.x >= 0) continue;
+        brick.distance.fill(unknown_distance);
+        brick.weight.fill(0);
     }
     const TriangleMesh mesh = extract_mesh(volume);
     ASSERT_FALSE(mesh.triangles.empty());

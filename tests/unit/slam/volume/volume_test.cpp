@@ -25,7 +25,7 @@ TEST(BrickIndex, FindsWhatWasInserted) {
     for (int i = 0; i < 5000; i += 7)
         EXPECT_EQ(volume.index.find(volume.bricks[std::size_t(i)].key), i);
     EXPECT_EQ(volume.index.find({100, 0, 0}), BrickIndex::absent);
-    EXPECT_EQ(find_voxel(volume, {-9 * 8, 0, 0}), nullptr);
+    EXPECT_EQ(find_brick(volume, brick_of({-9 * 8, 0, 0})), nullptr);
 }
 
 TEST(BrickIndex, VoxelsBelowZeroBelongToTheBrickBelowZero) {
