@@ -98,7 +98,7 @@ void time_stages(const SlamState& state, const RgbdFrame& frame, const SlamSetti
     time_stage("track_frame", [&] {
         track_frame(pyramid, model, std::vector<Pose>{pose}, settings.track);
     });
-    time_stage("fuse_surface", [&] { fuse_surface(volume, surface, frame.color, settings.fusion); });
+    time_stage("fuse_surface", [&] { fuse_surface(volume, surface, {frame.color, frame.lens, Pose{}}, settings.fusion); });
     time_stage("raycast_volume",
                [&] { raycast_volume(state.volume, frame.lens, pose, settings.raycast); });
     time_stage("extract_mesh", [&] { extract_mesh(state.volume); });
@@ -119,15 +119,15 @@ int run(int count, char** arguments) {
         if (frames == most) break;
         frame = recording.load(number);
         const double before = cpu_ms();
-        const SlamStep step = advance_slam(state, frame, settings, std::nullopt);
+        const TrackResult tracked = track_and_fuse(state, frame, settings, std::nullopt);
         spent += cpu_ms() - before;
-        lost += step.tracking.status == TrackingStatus::lost;
+        lost += tracked.status == TrackingStatus::lost;
         poses.poses.push_back({std::int64_t(std::llround(frame.time * 1e9)),
-                               {step.tracking.world_from_camera, ""}});
+                               {tracked.world_from_camera, ""}});
         ++frames;
         if (frames <= 20 || frames > 60 || frames % 5 != 0) continue;
         const MapQuality q = quality_of(
-            raycast_volume(state.volume, frame.lens, step.tracking.world_from_camera,
+            raycast_volume(state.volume, frame.lens, tracked.world_from_camera,
                            settings.raycast),
             frame.depth);
         covered += q.covered, filled += q.filled, angle += q.angle;

@@ -3,6 +3,8 @@
 
 #include <experimental/simd>  // the language's own SIMD types (Parallelism TS 2)
 
+#include <glm/glm.hpp>
+
 #include <array>
 
 namespace inlay {
@@ -20,6 +22,27 @@ struct Vectors {
 };
 
 inline Floats dot(const Vectors& a, const Vectors& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+inline Vectors cross(const Vectors& a, const Vectors& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// rotation * p + translation.
+inline Vectors transformed(const glm::mat3& rotation, const Vectors& p,
+                           const glm::vec3& translation = glm::vec3(0)) {
+    const auto row = [&](int i) {
+        return rotation[0][i] * p.x + rotation[1][i] * p.y + rotation[2][i] * p.z + translation[i];
+    };
+    return {row(0), row(1), row(2)};
+}
+
+/// The vectors that vector_of(lane) gives.
+template <class VectorOf>
+Vectors gathered(const VectorOf& vector_of) {
+    return {Floats([&](auto lane) { return vector_of(lane).x; }),
+            Floats([&](auto lane) { return vector_of(lane).y; }),
+            Floats([&](auto lane) { return vector_of(lane).z; })};
+}
 
 /// 0, 1, ... 7.
 inline Floats lane_numbers() {

@@ -35,6 +35,25 @@ CameraView make_view(const Lens& lens) {
 
 }  // namespace
 
+SeenAt CameraView::pixels_of(const Vectors& p) const {
+    Lanes seen = p.z > 0;
+    const Floats z = choose(seen, p.z, 1), x = p.x / z, y = p.y / z;
+    seen = seen && x >= lowest.x && x <= highest.x && y >= lowest.y && y <= highest.y;
+    Floats column = float(lens.fx) * x + float(lens.cx), row = float(lens.fy) * y + float(lens.cy);
+    for (std::size_t lane = 0; bent && lane < lane_count; ++lane) {
+        if (!seen[lane]) continue;
+        const glm::vec2 at(project(lens, {x[lane], y[lane], 1.0}));
+        column[lane] = at.x;
+        row[lane] = at.y;
+    }
+    column = stdx::floor(column + 0.5f);
+    row = stdx::floor(row + 0.5f);
+    seen = seen && column >= 0 && row >= 0 && column < float(lens.width) && row < float(lens.height);
+    const Ints pixel = stdx::static_simd_cast<Ints>(choose(seen, row, 0)) * lens.width +
+                       stdx::static_simd_cast<Ints>(choose(seen, column, 0));
+    return {seen, numbers_of(pixel)};
+}
+
 CameraView camera_view(const Lens& lens) {
     static std::mutex mutex;
     static std::deque<std::pair<Numbers, CameraView>> kept;

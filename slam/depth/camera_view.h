@@ -2,14 +2,22 @@
 #pragma once
 
 #include "recordings/base/image.h"
+#include "recordings/base/lanes.h"
 #include "recordings/base/lens.h"
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cmath>
 #include <memory>
 
 namespace inlay {
+
+/// Which of eight points are seen, and at which pixels.
+struct SeenAt {
+    Lanes seen;
+    std::array<int, lane_count> pixel;
+};
 
 /// A lens with its table of rays.
 struct CameraView {
@@ -21,6 +29,9 @@ struct CameraView {
     /// Index of the pixel where a point (m, camera frame) appears, -1 where none does. Points
     /// beyond the outermost rays have none, however the distortion might fold them back.
     int pixel_of(const glm::vec3& p_camera) const;
+
+    /// The same for eight points, with pixel 0 for those that have none.
+    SeenAt pixels_of(const Vectors& p_camera) const;
 
     /// False if no point of a ball (m, camera frame) can be seen.
     bool may_see(const glm::vec3& centre, float radius) const;

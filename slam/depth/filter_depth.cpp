@@ -1,6 +1,7 @@
 #include "slam/depth/filter_depth.h"
 
 #include "recordings/base/check.h"
+#include "recordings/base/lanes.h"
 #include "recordings/base/parallel.h"
 #include "slam/depth/steep_surface.h"
 
@@ -17,16 +18,47 @@ bool measured(float z, const DepthSettings& s) {
     return std::isfinite(z) && z >= s.nearest && z <= s.farthest;
 }
 
-bool stands_alone(const Image<float>& depth, int x, int y, const DepthSettings& settings) {
-    const float z = depth(x, y);
-    const float step = depth_step(z, settings);
-    int neighbours = -1;  // the pixel itself is counted below
-    for (int v = std::max(0, y - 1); v <= std::min(depth.height - 1, y + 1); ++v) {
-        for (int u = std::max(0, x - 1); u <= std::min(depth.width - 1, x + 1); ++u) {
-            neighbours += std::abs(depth(u, v) - z) <= step;
-        }
+/// A depth image in a frame of holes, so that windows and rows of eight need no bounds.
+struct Framed {
+    int margin = 0;
+    Image<float> depth;
+
+    const float* at(int x, int y) const {
+        return &depth.pixels[depth.index(x + margin, y + margin)];
     }
-    return neighbours < least_neighbours;
+};
+
+Framed framed(const Image<float>& depth, int margin) {
+    Framed result{margin, Image<float>(depth.width + 2 * margin + lane_count,
+                                       depth.height + 2 * margin, 0.0f)};
+    for (int y = 0; y < depth.height; ++y) {
+        const auto row = depth.pixels.begin() + std::ptrdiff_t(depth.index(0, y));
+        std::copy(row, row + depth.width,
+                  result.depth.pixels.begin() +
+                      std::ptrdiff_t(result.depth.index(margin, y + margin)));
+    }
+    return result;
+}
+
+Floats eight(const float* from) { return Floats(from, stdx::element_aligned); }
+
+/// Writes the lanes that lie within a row.
+void store(const Floats& values, Image<float>& image, int x, int y) {
+    const auto numbers = numbers_of(values);
+    std::copy(numbers.begin(), numbers.begin() + std::min(lane_count, image.width - x),
+              image.pixels.begin() + std::ptrdiff_t(image.index(x, y)));
+}
+
+/// Of eight measured pixels, those with too few neighbours on their own surface.
+Lanes stand_alone(const Framed& depth, int x, int y, const DepthSettings& settings) {
+    const Floats z = eight(depth.at(x, y));
+    const Floats step = settings.step * settings.sensor_noise * depth_sigma(z);
+    Floats neighbours = -1;  // the pixel itself is counted below
+    for (int v = -1; v <= 1; ++v) {
+        for (int u = -1; u <= 1; ++u)
+            where(stdx::abs(eight(depth.at(x + u, y + v)) - z) <= step, neighbours) += 1;
+    }
+    return z > 0 && neighbours < float(least_neighbours);
 }
 
 std::vector<float> spatial_weights(const DepthSettings& settings) {
@@ -42,26 +74,24 @@ std::vector<float> spatial_weights(const DepthSettings& settings) {
     return weights;
 }
 
-float smoothed(const Image<float>& clean, int x, int y, const std::vector<float>& spatial,
-               const DepthSettings& settings) {
-    const float z = clean(x, y);
+/// Eight smoothed depths; holes stay 0.
+Floats smoothed(const Framed& clean, int x, int y, const std::vector<float>& spatial,
+                const DepthSettings& settings) {
+    const Floats z = eight(clean.at(x, y));
+    const Floats per_step = 1.0f / (settings.step * settings.sensor_noise * depth_sigma(z));
     const int r = settings.smoothing_radius;
-    const int left = std::max(-r, -x), right = std::min(r, clean.width - 1 - x);
-    const float per_step = 1.0f / depth_step(z, settings);
-    float sum = 0, weight = 0;
-    for (int v = std::max(-r, -y); v <= std::min(r, clean.height - 1 - y); ++v) {
-        const float* row = &clean.pixels[clean.index(x, y + v)];
-        const int middle = (v + r) * (2 * r + 1) + r;
-        const float* near = &spatial[std::size_t(middle)];
-        for (int u = left; u <= right; ++u) {
-            const float difference = (row[u] - z) * per_step;
-            const float kept = std::max(0.0f, 1 - difference * difference);
-            const float w = near[u] * kept * kept;
-            sum += w * (row[u] - z);
+    Floats sum = 0, weight = 0;
+    const float* near = spatial.data();
+    for (int v = -r; v <= r; ++v) {
+        for (int u = -r; u <= r; ++u, ++near) {
+            const Floats beyond = eight(clean.at(x + u, y + v)) - z, steps = beyond * per_step;
+            const Floats kept = stdx::max(1 - steps * steps, Floats(0));
+            const Floats w = *near * (kept * kept);
+            sum += w * beyond;
             weight += w;
         }
     }
-    return z + sum / weight;
+    return choose(z > 0, z + sum / weight, 0);
 }
 
 }  // namespace
@@ -82,10 +112,15 @@ Image<float> clean_depth(const Image<float>& depth, const DepthSettings& setting
     Image<float> in_range(depth.width, depth.height);
     std::transform(depth.pixels.begin(), depth.pixels.end(), in_range.pixels.begin(),
                    [&](float z) { return measured(z, settings) ? z : 0.0f; });
+    const Framed surroundings = framed(in_range, 1);
     Image<unsigned char> alone(depth.width, depth.height);
     parallel_rows(depth.height, [&](int y) {
-        for (int x = 0; x < depth.width; ++x)
-            alone(x, y) = in_range(x, y) > 0 && stands_alone(in_range, x, y, settings);
+        for (int x = 0; x < depth.width; x += lane_count) {
+            const Lanes found = stand_alone(surroundings, x, y, settings);
+            if (none_of(found)) continue;
+            for (int lane = 0; lane < std::min(lane_count, depth.width - x); ++lane)
+                alone(x + lane, y) = found[std::size_t(lane)];
+        }
     });
     Image<float> clean = in_range;
     parallel_rows(depth.height, [&](int y) {
@@ -100,11 +135,11 @@ Image<float> clean_depth(const Image<float>& depth, const DepthSettings& setting
 Image<float> smooth_depth(const Image<float>& clean, const DepthSettings& settings) {
     if (settings.smoothing_radius == 0) return clean;
     const std::vector<float> spatial = spatial_weights(settings);
+    const Framed surroundings = framed(clean, settings.smoothing_radius);
     Image<float> result(clean.width, clean.height);
     parallel_rows(clean.height, [&](int y) {
-        for (int x = 0; x < clean.width; ++x) {
-            if (clean(x, y) > 0) result(x, y) = smoothed(clean, x, y, spatial, settings);
-        }
+        for (int x = 0; x < clean.width; x += lane_count)
+            store(smoothed(surroundings, x, y, spatial, settings), result, x, y);
     });
     return result;
 }

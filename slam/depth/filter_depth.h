@@ -21,7 +21,10 @@ void validate(const DepthSettings& settings);
 
 /// Standard deviation (m) of a structured-light camera's z-depth at `z` (m): 1.2 mm at 0.4 m,
 /// growing with the square of the distance. Nguyen, Izadi and Lovell 2012, eq. 6 (axial noise).
-inline float depth_sigma(float z) { return 0.0012f + 0.0019f * (z - 0.4f) * (z - 0.4f); }
+template <class Number>  // float, or several at a time
+Number depth_sigma(Number z) {
+    return 0.0012f + 0.0019f * (z - 0.4f) * (z - 0.4f);
+}
 
 /// Depth difference (m) at `z` (m) beyond which two neighbouring pixels see different surfaces.
 inline float depth_step(float z, const DepthSettings& settings) {

@@ -13,8 +13,8 @@ namespace {
 
 /// One frame's geometry, as far as it can be trusted.
 struct Observed {
-    Image<float> clean, smooth;       // m
-    std::vector<SurfaceMap> pyramid;  // of `smooth`, finest first
+    Image<float> clean;               // m
+    std::vector<SurfaceMap> pyramid;  // of the smoothed depth, finest first
 };
 
 void require_sizes(const RgbdFrame& frame) {
@@ -33,10 +33,12 @@ void require_sizes(const RgbdFrame& frame) {
 
 Observed observe(const RgbdFrame& frame, const SlamSettings& settings) {
     Observed observed;
-    observed.clean = clean_depth(frame.depth, settings.depth);
-    observed.smooth = smooth_depth(observed.clean, settings.depth);
+    DepthLevel finest{clean_depth(frame.depth, settings.depth), frame.lens};
+    if (settings.half_resolution) finest = halve(finest, settings.depth);
+    observed.clean = std::move(finest.depth);
     for (const DepthLevel& level :
-         depth_pyramid(observed.smooth, frame.lens, settings.track.levels, settings.depth)) {
+         depth_pyramid(smooth_depth(observed.clean, settings.depth), finest.lens,
+                       settings.track.levels, settings.depth)) {
         observed.pyramid.push_back(
             surface_from_depth(level.depth, level.lens, Pose{}, settings.depth));
     }
@@ -92,15 +94,27 @@ SurfaceMap uncertain(SurfaceMap surface) {
     return surface;
 }
 
-void learn(SlamState& state, const RgbdFrame& frame, Observed& observed,
+void learn(SlamState& state, const RgbdFrame& frame, Observed observed,
            const Pose& world_from_camera, const SlamSettings& settings) {
-    observed.pyramid.front().world_from_camera = world_from_camera;
-    fuse_surface(state.volume, observed.pyramid.front(), frame.color, settings.fusion);
-    remember_view(state.keyframes, world_from_camera, observed.clean);
     state.before_last.reset();
     if (state.model && state.frames_lost == 0) state.before_last = state.model->world_from_camera;
-    state.model = raycast_volume(state.volume, frame.lens, world_from_camera, settings.raycast);
+    state.seen = std::move(observed.pyramid.front());
+    state.seen->world_from_camera = world_from_camera;
+    fuse_surface(state.volume, *state.seen, {frame.color, frame.lens, Pose{}}, settings.fusion);
+    remember_view(state.keyframes, world_from_camera, observed.clean);
+    state.model =
+        raycast_volume(state.volume, state.seen->lens, world_from_camera, settings.raycast);
     state.frames_lost = 0;
+}
+
+bool same_size(const Lens& a, const Lens& b) { return a.width == b.width && a.height == b.height; }
+
+/// What the frame itself saw, at full size.
+SurfaceMap own_surface(const SlamState& state, const RgbdFrame& frame,
+                       const SlamSettings& settings) {
+    if (same_size(state.seen->lens, frame.lens)) return *state.seen;
+    return surface_from_depth(filter_depth(frame.depth, settings.depth), frame.lens,
+                              state.seen->world_from_camera, settings.depth);
 }
 
 }  // namespace
@@ -109,6 +123,7 @@ SlamSettings accurate_slam() { return {}; }
 
 SlamSettings fast_slam() {
     SlamSettings settings;
+    settings.half_resolution = true;
     settings.depth.smoothing_radius = 2;
     settings.fusion.voxel_size = 0.012f;
     settings.fusion.truncation = 0.048f;
@@ -130,23 +145,32 @@ SlamState start_slam(const SlamSettings& settings) {
     return state;
 }
 
-SlamStep advance_slam(SlamState& state, const RgbdFrame& frame, const SlamSettings& settings,
-                      const std::optional<Pose>& known_world_from_camera) {
+TrackResult track_and_fuse(SlamState& state, const RgbdFrame& frame, const SlamSettings& settings,
+                           const std::optional<Pose>& known_world_from_camera) {
     require_sizes(frame);
     Observed observed = observe(frame, settings);
-    SlamStep step;
-    step.tracking = known_world_from_camera ? certain(*known_world_from_camera)
-                                            : locate(state, frame, observed, settings);
-    const Pose& world_from_camera = step.tracking.world_from_camera;
-    if (step.tracking.status == TrackingStatus::lost) {
+    TrackResult tracking = known_world_from_camera ? certain(*known_world_from_camera)
+                                                   : locate(state, frame, observed, settings);
+    if (tracking.status == TrackingStatus::lost) {
         ++state.frames_lost;
-        step.surface = uncertain(
-            raycast_volume(state.volume, frame.lens, world_from_camera, settings.raycast));
-        return step;
+    } else {
+        learn(state, frame, std::move(observed), tracking.world_from_camera, settings);
     }
-    learn(state, frame, observed, world_from_camera, settings);
-    step.surface = completed(*state.model, observed.pyramid.front(), settings.raycast);
-    step.surface.world_from_camera = world_from_camera;
+    return tracking;
+}
+
+SlamStep advance_slam(SlamState& state, const RgbdFrame& frame, const SlamSettings& settings,
+                      const std::optional<Pose>& known_world_from_camera) {
+    SlamStep step{track_and_fuse(state, frame, settings, known_world_from_camera), {}};
+    const Pose& pose = step.tracking.world_from_camera;
+    const bool seen = state.model && same_size(state.model->lens, frame.lens) &&
+                      step.tracking.status != TrackingStatus::lost;
+    step.surface = seen ? *state.model
+                        : raycast_volume(state.volume, frame.lens, pose, settings.raycast);
+    step.surface = step.tracking.status == TrackingStatus::lost
+                       ? uncertain(std::move(step.surface))
+                       : completed(std::move(step.surface), own_surface(state, frame, settings),
+                                   settings.raycast);
     return step;
 }
 

@@ -18,6 +18,7 @@ struct SlamSettings {
     FusionSettings fusion;
     RaycastSettings raycast;
     TrackSettings track;
+    bool half_resolution = false;  // track and fuse every second pixel
 };
 
 /// Settings for --slam accurate (the defaults of every stage) and fast (larger voxels, fewer
@@ -31,7 +32,8 @@ void validate(const SlamSettings& settings);
 /// Everything that survives from frame to frame.
 struct SlamState {
     VoxelVolume volume;
-    std::optional<SurfaceMap> model;  // raycast from the last good pose; empty before the first
+    std::optional<SurfaceMap> seen;   // what the last good frame itself saw; empty before the first
+    std::optional<SurfaceMap> model;  // raycast from its pose
     std::optional<Pose> before_last;  // world_from_camera of the good frame before it
     std::vector<Keyframe> keyframes;  // for finding the way back
     int frames_lost = 0;              // since the last good one
@@ -44,13 +46,16 @@ struct SlamStep {
 
 SlamState start_slam(const SlamSettings& settings);
 
-/// One frame. With a known pose nothing is tracked. Else the first frame is anchored at its
-/// recorded pose, or at the identity, and every later one is tracked against the model; recorded
-/// poses are not used again. The surface is the model as this frame's lens (distortion included)
-/// sees it from there, completed by the frame's own depth where the model has none. A frame that is
-/// lost changes nothing in the model: its pose is the last good one, its surface has confidence 0,
-/// and the following frames look for the way back from there and from earlier views.
-/// Throws Error if the frame's images do not have the lens's size.
+/// Tracks one frame and fuses it. With a known pose nothing is tracked. Else the first frame is
+/// anchored at its recorded pose, or at the identity, and every later one is tracked against the
+/// model; recorded poses are not used again. A frame that is lost changes nothing in the model: its
+/// pose is the last good one, and the following frames look for the way back from there and from
+/// earlier views. Throws Error if the frame's images do not have the lens's size.
+TrackResult track_and_fuse(SlamState& state, const RgbdFrame& frame, const SlamSettings& settings,
+                           const std::optional<Pose>& known_world_from_camera);
+
+/// track_and_fuse(), and what the frame's lens (distortion included) sees of the model from there:
+/// completed by the frame's own depth where the model has none; of confidence 0 if it is lost.
 SlamStep advance_slam(SlamState& state, const RgbdFrame& frame, const SlamSettings& settings,
                       const std::optional<Pose>& known_world_from_camera);
 

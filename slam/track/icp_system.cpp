@@ -1,5 +1,6 @@
 #include "slam/track/icp_system.h"
 
+#include "recordings/base/lanes.h"
 #include "recordings/base/parallel.h"
 #include "slam/depth/camera_view.h"
 #include "slam/depth/filter_depth.h"
@@ -15,15 +16,13 @@ constexpr float tukey = 4.685f;       // standard deviations: 95 % efficiency on
 constexpr float inlier_bound = 3.0f;  // standard deviations
 constexpr int scale_stride = 4;       // rows
 
-/// What becomes of one observed point.
-enum class Fate { unseen, seen, paired };
-
-struct Pair {
-    Fate fate = Fate::unseen;
-    glm::vec3 point{0};   // m, observed, in the model's camera
-    glm::vec3 normal{0};  // of the model
-    float residual = 0;   // m, from the point to the model's plane
-    float sigma = 1;      // m, of the residual
+/// What becomes of eight observed points.
+struct Pairs {
+    Lanes observed, seen, paired;  // each among the ones before
+    Vectors point;                 // m, observed, in the model's camera
+    Vectors normal;                // of the model
+    Floats residual;               // m, from the point to the model's plane
+    Floats sigma;                  // m, of the residual
 };
 
 /// Finds the pairs of one observed map with the model.
@@ -38,25 +37,40 @@ public:
           translation_(model_from_observed.translation),
           settings_(settings) {}
 
-    Pair pair_of(std::size_t pixel) const {
-        Pair pair;
-        const glm::vec3& seen = observed_.position.pixels[pixel];
-        pair.point = rotation_ * seen + translation_;
-        const int at = view_.pixel_of(pair.point);
-        if (at < 0) return pair;
-        const auto hit = std::size_t(at);
-        const glm::vec3& surface = model_.position.pixels[hit];
-        if (surface.z <= 0 || model_.confidence.pixels[hit] <= 0) return pair;
-        pair.fate = Fate::seen;
-        pair.normal = model_.normal.pixels[hit];
-        const glm::vec3 between = surface - pair.point;
-        const glm::vec3 turned = rotation_ * observed_.normal.pixels[pixel];
-        if (glm::dot(between, between) > settings_.distance * settings_.distance) return pair;
-        if (glm::dot(turned, pair.normal) < settings_.cosine) return pair;
-        pair.fate = Fate::paired;
-        pair.residual = glm::dot(between, pair.normal);
-        pair.sigma = depth_sigma(seen.z);
-        return pair;
+    /// The pairs of pixels (x, y) to (x + 7, y).
+    Pairs pairs_of(int x, int y) const {
+        const int width = observed_.lens.width;
+        const std::size_t row = observed_.position.index(0, y);
+        const auto own = [&](const Image<glm::vec3>& map) {
+            return gathered([&](auto lane) -> const glm::vec3& {
+                return map.pixels[row + std::size_t(std::min(x + int(lane), width - 1))];
+            });
+        };
+        Pairs pairs;
+        const Vectors seen = own(observed_.position);
+        pairs.observed = seen.z > 0 && lane_numbers() < float(width - x);
+        pairs.point = transformed(rotation_, seen, translation_);
+        pairs.sigma = depth_sigma(seen.z);
+        const SeenAt at = view_.pixels_of(pairs.point);
+        const auto others = [&](const Image<glm::vec3>& map) {
+            return gathered([&](auto lane) -> const glm::vec3& {
+                return map.pixels[std::size_t(at.pixel[lane])];
+            });
+        };
+        const Floats confidence([&](auto lane) {
+            return model_.confidence.pixels[std::size_t(at.pixel[lane])];
+        });
+        const Vectors surface = others(model_.position);
+        pairs.seen = pairs.observed && at.seen && surface.z > 0 && confidence > 0;
+        pairs.normal = others(model_.normal);
+        const Vectors between{surface.x - pairs.point.x, surface.y - pairs.point.y,
+                              surface.z - pairs.point.z};
+        const Vectors turned = transformed(rotation_, own(observed_.normal));
+        pairs.paired = pairs.seen &&
+                       dot(between, between) <= settings_.distance * settings_.distance &&
+                       dot(turned, pairs.normal) >= settings_.cosine;
+        pairs.residual = dot(between, pairs.normal);
+        return pairs;
     }
 
 private:
@@ -68,28 +82,57 @@ private:
     PairingSettings settings_;
 };
 
-void add(IcpSystem& system, const Pair& pair, float scale) {
-    ++system.pairs;
-    system.distance += glm::length(pair.point);
-    const float deviation = std::abs(pair.residual) / (pair.sigma * scale);
-    if (deviation < inlier_bound) {
-        ++system.inliers;
-        system.squared_residual += double(pair.residual) * double(pair.residual);
+/// Sums of one row, a lane for each eighth of its points.
+struct RowSums {
+    std::array<Floats, 21> a;
+    std::array<Floats, 6> b;
+    Floats squared_residual = 0, distance = 0;
+    int observed = 0, seen = 0, pairs = 0, inliers = 0;
+
+    RowSums() {
+        a.fill(0);
+        b.fill(0);
     }
-    if (deviation >= tukey) return;
-    const float kept = 1 - deviation * deviation / (tukey * tukey);
-    const double weight = double(kept * kept) / (double(pair.sigma) * double(pair.sigma));
-    const glm::vec3 turn = glm::cross(pair.point, pair.normal);
-    const std::array<double, 6> j{turn.x,        turn.y,        turn.z,
-                                  pair.normal.x, pair.normal.y, pair.normal.z};
+};
+
+void add(RowSums& sums, const Pairs& pairs, float scale) {
+    sums.observed += popcount(pairs.observed);
+    sums.seen += popcount(pairs.seen);
+    if (none_of(pairs.paired)) return;
+    sums.pairs += popcount(pairs.paired);
+    where(pairs.paired, sums.distance) += stdx::sqrt(dot(pairs.point, pairs.point));
+    const Floats deviation = stdx::abs(pairs.residual) / (pairs.sigma * scale);
+    const Lanes inlier = pairs.paired && deviation < inlier_bound;
+    sums.inliers += popcount(inlier);
+    where(inlier, sums.squared_residual) += pairs.residual * pairs.residual;
+    const Floats kept = 1 - deviation * deviation * (1 / (tukey * tukey));
+    const Floats weight = choose(pairs.paired && deviation < tukey,
+                                 kept * kept / (pairs.sigma * pairs.sigma), 0);
+    const Vectors turn = cross(pairs.point, pairs.normal);
+    const std::array<Floats, 6> j{turn.x,         turn.y,         turn.z,
+                                  pairs.normal.x, pairs.normal.y, pairs.normal.z};
     std::size_t entry = 0;
     for (std::size_t row = 0; row < 6; ++row) {
-        const double weighted = weight * j[row];
-        for (std::size_t column = row; column < 6; ++column) {
-            system.a[entry++] += weighted * j[column];
-        }
-        system.b[row] += weighted * double(pair.residual);
+        const Floats weighted = weight * j[row];
+        for (std::size_t column = row; column < 6; ++column)
+            sums.a[entry++] += weighted * j[column];
+        sums.b[row] += weighted * pairs.residual;
     }
+}
+
+IcpSystem total(const RowSums& sums) {
+    IcpSystem system;
+    for (std::size_t i = 0; i < sums.a.size(); ++i)
+        system.a[i] = double(stdx::reduce(sums.a[i]));
+    for (std::size_t i = 0; i < sums.b.size(); ++i)
+        system.b[i] = double(stdx::reduce(sums.b[i]));
+    system.squared_residual = double(stdx::reduce(sums.squared_residual));
+    system.distance = double(stdx::reduce(sums.distance));
+    system.observed = sums.observed;
+    system.seen = sums.seen;
+    system.pairs = sums.pairs;
+    system.inliers = sums.inliers;
+    return system;
 }
 
 void add(IcpSystem& sum, const IcpSystem& part) {
@@ -112,15 +155,10 @@ IcpSystem icp_system(const SurfaceMap& observed, const SurfaceMap& model,
     const Pairing pairing(observed, model, model_from_observed, settings);
     std::vector<IcpSystem> rows(std::size_t(observed.lens.height));
     parallel_rows(observed.lens.height, [&](int y) {
-        IcpSystem row;
-        for (int x = 0; x < observed.lens.width; ++x) {
-            if (!observed.has_surface(x, y)) continue;
-            ++row.observed;
-            const Pair pair = pairing.pair_of(observed.position.index(x, y));
-            row.seen += pair.fate != Fate::unseen;
-            if (pair.fate == Fate::paired) add(row, pair, settings.scale);
-        }
-        rows[std::size_t(y)] = row;
+        RowSums sums;
+        for (int x = 0; x < observed.lens.width; x += lane_count)
+            add(sums, pairing.pairs_of(x, y), settings.scale);
+        rows[std::size_t(y)] = total(sums);
     });
     IcpSystem sum;
     for (const IcpSystem& row : rows)
@@ -133,11 +171,11 @@ float residual_scale(const SurfaceMap& observed, const SurfaceMap& model,
     const Pairing pairing(observed, model, model_from_observed, settings);
     std::vector<std::vector<float>> rows(std::size_t(observed.lens.height / scale_stride));
     parallel_for(int(rows.size()), [&](int i) {
-        for (int x = 0; x < observed.lens.width; ++x) {
-            if (!observed.has_surface(x, i * scale_stride)) continue;
-            const Pair pair = pairing.pair_of(observed.position.index(x, i * scale_stride));
-            if (pair.fate != Fate::paired) continue;
-            rows[std::size_t(i)].push_back(std::abs(pair.residual) / pair.sigma);
+        for (int x = 0; x < observed.lens.width; x += lane_count) {
+            const Pairs pairs = pairing.pairs_of(x, i * scale_stride);
+            const auto deviations = numbers_of(stdx::abs(pairs.residual) / pairs.sigma);
+            for (std::size_t lane = 0; lane < lane_count; ++lane)
+                if (pairs.paired[lane]) rows[std::size_t(i)].push_back(deviations[lane]);
         }
     });
     std::vector<float> all;

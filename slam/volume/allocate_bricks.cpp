@@ -10,6 +10,8 @@
 namespace inlay {
 namespace {
 
+constexpr int most_stride = 8;  // px
+
 /// The bricks of one row, with a short memory so that most repetitions never get in.
 class BrickList {
 public:
@@ -58,11 +60,15 @@ void allocate_bricks(VoxelVolume& volume, const SurfaceMap& surface) {
     const glm::mat3 rotation(surface.world_from_camera.rotation);
     const glm::vec3 eye(surface.world_from_camera.translation);
     const glm::vec3 half_voxel(0.5f / float(brick_side));  // a voxel's cell is centred on it
+    const auto focal_voxels =
+        float(std::min(std::abs(surface.lens.fx), std::abs(surface.lens.fy))) * volume.voxel_size;
     std::vector<BrickList> rows(std::size_t(surface.lens.height));
     parallel_rows(surface.lens.height, [&](int y) {
         for (int x = 0; x < surface.lens.width; ++x) {
             if (!surface.has_surface(x, y)) continue;
             const glm::vec3& p = surface.position(x, y);
+            const int stride = std::clamp(int(focal_voxels / p.z), 1, most_stride);
+            if (x % stride != 0 || y % stride != 0) continue;
             const float share = volume.truncation / glm::length(p);
             const auto in_bricks = [&](float scale) {
                 return (rotation * (scale * p) + eye) * bricks_per_metre + half_voxel;

@@ -40,28 +40,31 @@ BrickGrid::BrickGrid(const VoxelVolume& volume, std::span<const int> bricks) {
     }
 }
 
-Floats BrickGrid::read(const Ints& brick, const Ints& slot) const {
-    const auto bricks = numbers_of(brick), slots = numbers_of(slot);
-    return Floats([&](auto lane) {
-        return table_[std::size_t(bricks[lane])]->distance[std::size_t(slots[lane])];
-    });
-}
-
-BrickGrid::Axis BrickGrid::axis(const Ints& low, int which) const {
-    const Ints a = stdx::clamp(low, Ints(0), Ints(size_[which] * brick_side - 2)), b = a + 1;
-    const Ints brick = stride_[std::size_t(which)], slot = slot_stride[std::size_t(which)];
-    return {{(a >> 3) * brick, (b >> 3) * brick}, {(a & 7) * slot, (b & 7) * slot}};
+template <std::size_t Count>
+BrickGrid::Axis<Count> BrickGrid::axis(const Ints& low, int which) const {
+    const auto axis_number = std::size_t(which);
+    const Ints bricks = stride_[axis_number], slots = slot_stride[axis_number];
+    const Ints first = stdx::clamp(low, Ints(0), Ints(size_[which] * brick_side - int(Count)));
+    Axis<Count> result;
+    for (std::size_t i = 0; i < Count; ++i) {
+        const Ints voxel = first + int(i);
+        result.brick[i] = (voxel >> 3) * bricks;
+        result.slot[i] = (voxel & 7) * slots;
+    }
+    return result;
 }
 
 Floats BrickGrid::nearest_distance(const Vectors& p) const {
     const auto nearest = [](const Floats& x) { return whole(stdx::floor(x + 0.5f)); };
-    const Axis x = axis(nearest(p.x), 0), y = axis(nearest(p.y), 1), z = axis(nearest(p.z), 2);
+    const Axis x = axis<1>(nearest(p.x), 0), y = axis<1>(nearest(p.y), 1),
+               z = axis<1>(nearest(p.z), 2);
     return read(x.brick[0] + y.brick[0] + z.brick[0], x.slot[0] + y.slot[0] + z.slot[0]);
 }
 
 Floats BrickGrid::distance(const Vectors& p) const {
     const Vectors base{stdx::floor(p.x), stdx::floor(p.y), stdx::floor(p.z)};
-    const Axis x = axis(whole(base.x), 0), y = axis(whole(base.y), 1), z = axis(whole(base.z), 2);
+    const Axis x = axis<2>(whole(base.x), 0), y = axis<2>(whole(base.y), 1),
+               z = axis<2>(whole(base.z), 2);
     const Vectors f{p.x - base.x, p.y - base.y, p.z - base.z};
     const std::array<Floats, 2> wx{1 - f.x, f.x}, wy{1 - f.y, f.y}, wz{1 - f.z, f.z};
     Floats sum = 0, largest = -1;
@@ -79,19 +82,57 @@ Floats BrickGrid::distance(const Vectors& p) const {
 }
 
 Vectors BrickGrid::gradient(const Vectors& p) const {
-    const Floats here = distance(p);
-    const Lanes here_known = here < 1.5f;
-    Lanes known(true);
-    const auto slope = [&](const Vectors& step) {
-        const Floats ahead = distance({p.x + step.x, p.y + step.y, p.z + step.z});
-        const Floats behind = distance({p.x - step.x, p.y - step.y, p.z - step.z});
-        const Lanes ahead_known = ahead < 1.5f, behind_known = behind < 1.5f;
-        const Lanes both = ahead_known && behind_known;
-        known = known && (both || (here_known && (ahead_known || behind_known)));
-        const Floats one_sided = choose(ahead_known, ahead - here, here - behind);
-        return choose(both, (ahead - behind) * 0.5f, one_sided);
+    const Vectors base{stdx::floor(p.x), stdx::floor(p.y), stdx::floor(p.z)};
+    const Vectors f{p.x - base.x, p.y - base.y, p.z - base.z};
+    const std::array<Axis<4>, 3> around{axis<4>(whole(base.x) - 1, 0), axis<4>(whole(base.y) - 1, 1),
+                                        axis<4>(whole(base.z) - 1, 2)};
+    const auto at = [&](std::size_t i, std::size_t j, std::size_t k) {
+        return read(around[0].brick[i] + around[1].brick[j] + around[2].brick[k],
+                    around[0].slot[i] + around[1].slot[j] + around[2].slot[k]);
     };
-    const Vectors g{slope({1, 0, 0}), slope({0, 1, 0}), slope({0, 0, 1})};
+    const std::array<std::array<Floats, 2>, 3> weight{
+        {{1 - f.x, f.x}, {1 - f.y, f.y}, {1 - f.z, f.z}}};
+    std::array<Floats, 8> core;  // the voxels around the points, x fastest
+    for (std::size_t c = 0; c < core.size(); ++c)
+        core[c] = at(1 + (c & 1), 1 + ((c >> 1) & 1), 1 + (c >> 2));
+    Lanes known(true);
+    const auto slope = [&](std::size_t which) {
+        // The distances one voxel behind and one ahead, each trilinear, as layers across the axis.
+        std::array<Floats, 4> layer;
+        std::array<Floats, 4> largest;
+        layer.fill(0);
+        largest.fill(-1);
+        const std::size_t second = (which + 1) % 3, third = (which + 2) % 3;
+        for (std::size_t n = 0; n < 4; ++n) {
+            for (std::size_t side = 0; side < 4; ++side) {
+                std::array<std::size_t, 3> corner{};
+                corner[second] = side & 1;
+                corner[third] = side >> 1;
+                Floats d;
+                if (n == 1 || n == 2) {
+                    corner[which] = n - 1;
+                    d = core[corner[0] + 2 * corner[1] + 4 * corner[2]];
+                } else {
+                    corner[second] += 1;
+                    corner[third] += 1;
+                    corner[which] = n;
+                    d = at(corner[0], corner[1], corner[2]);
+                }
+                layer[n] += weight[second][side & 1] * weight[third][side >> 1] * d;
+                largest[n] = stdx::max(largest[n], d);
+            }
+        }
+        const Floats low = weight[which][0], high = weight[which][1];
+        const Floats behind = low * layer[0] + high * layer[1];
+        const Floats here = low * layer[1] + high * layer[2];
+        const Floats ahead = low * layer[2] + high * layer[3];
+        const Lanes middle = stdx::max(largest[1], largest[2]) < 1.5f;
+        const Lanes back = largest[0] < 1.5f, front = largest[3] < 1.5f;
+        known = known && middle && (back || front);
+        const Floats one_sided = choose(front, ahead - here, here - behind);
+        return choose(back && front, (ahead - behind) * 0.5f, one_sided);
+    };
+    const Vectors g{slope(0), slope(1), slope(2)};
     return {choose(known, g.x, 0), choose(known, g.y, 0), choose(known, g.z, 0)};
 }
 

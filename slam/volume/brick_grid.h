@@ -35,12 +35,19 @@ public:
     float nearest_weight(const glm::vec3& p) const;
 
 private:
-    /// Parts of the two voxels around a coordinate, in the table of bricks and within a brick.
+    /// Parts of the places of voxels in a row along an axis: in the table of bricks, in a brick.
+    template <std::size_t Count>
     struct Axis {
-        std::array<Ints, 2> brick, slot;
+        std::array<Ints, Count> brick, slot;
     };
-    Axis axis(const Ints& low, int which) const;
-    Floats read(const Ints& brick, const Ints& slot) const;
+    template <std::size_t Count>
+    Axis<Count> axis(const Ints& low, int which) const;
+    Floats read(const Ints& brick, const Ints& slot) const {
+        const auto bricks = numbers_of(brick), slots = numbers_of(slot);
+        return Floats([&](auto lane) {
+            return table_[std::size_t(bricks[lane])]->distance[std::size_t(slots[lane])];
+        });
+    }
 
     glm::ivec3 origin_{0}, size_{0};  // voxels; bricks
     std::array<int, 3> stride_{};     // entries of the table to the next brick

@@ -26,8 +26,11 @@ struct PixelPlane {
 /// What one frame says about space.
 struct Observation {
     Image<PixelPlane> planes;
-    Image<Rgb> color;  // linear; empty: none
     CameraView view;
+    const Image<EncodedRgb>& color;  // empty: none
+    CameraView color_view;
+    glm::mat3 color_rotation;
+    glm::vec3 color_translation;  // m, from the depth camera's frame to the color camera's
     glm::mat3 camera_from_world;
     glm::vec3 translation;  // m, of camera_from_world
 };
@@ -39,12 +42,16 @@ float observation_weight(const glm::vec3& p, const glm::vec3& n, const FusionSet
     return cosine * nearness * nearness;
 }
 
-Observation observe(const SurfaceMap& surface, const Image<EncodedRgb>& color,
+Observation observe(const SurfaceMap& surface, const SeenColor& color,
                     const FusionSettings& settings) {
     const Pose camera_from_world = inverse(surface.world_from_camera);
     const Lens& lens = surface.lens;
     Observation seen{Image<PixelPlane>(lens.width, lens.height),
-                     color.empty() ? Image<Rgb>() : decode(color), camera_view(lens),
+                     camera_view(lens),
+                     color.image,
+                     color.image.empty() ? CameraView{} : camera_view(color.lens),
+                     glm::mat3(color.color_from_depth.rotation),
+                     glm::vec3(color.color_from_depth.translation),
                      glm::mat3(camera_from_world.rotation),
                      glm::vec3(camera_from_world.translation)};
     parallel_rows(lens.height, [&](int y) {
@@ -67,39 +74,21 @@ void fold_color(Brick& brick, std::size_t slot, const Rgb& color) {
     brick.color_weight[slot] = std::uint16_t(std::min(old + 1, most_color_weight));
 }
 
-/// Which of eight points (m, camera frame) the lens sees, and at which pixels; 0 for the others.
-struct SeenAt {
-    Lanes seen;
-    std::array<int, lane_count> pixel;
-};
-
-SeenAt pixels_of(const Vectors& p, const CameraView& view) {
-    Lanes seen = p.z > 0;
-    const Floats z = choose(seen, p.z, 1), x = p.x / z, y = p.y / z;
-    seen = seen && x >= view.lowest.x && x <= view.highest.x && y >= view.lowest.y &&
-           y <= view.highest.y;
-    Floats column = float(view.lens.fx) * x + float(view.lens.cx);
-    Floats row = float(view.lens.fy) * y + float(view.lens.cy);
-    for (std::size_t lane = 0; view.bent && lane < lane_count; ++lane) {
-        if (!seen[lane]) continue;
-        const glm::vec2 at(project(view.lens, {x[lane], y[lane], 1.0}));
-        column[lane] = at.x;
-        row[lane] = at.y;
+/// Folds the photograph's colors into those of eight voxels that are `near` the surface.
+void fold_colors(Brick& brick, std::size_t slot, const Vectors& p, const Lanes& near,
+                 const Observation& seen) {
+    const SeenAt at = seen.color_view.pixels_of(transformed(seen.color_rotation, p, seen.color_translation));
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+        if (!near[lane] || !at.seen[lane]) continue;
+        fold_color(brick, slot + lane, decode(seen.color.pixels[std::size_t(at.pixel[lane])]));
     }
-    column = stdx::floor(column + 0.5f);
-    row = stdx::floor(row + 0.5f);
-    seen = seen && column >= 0 && row >= 0 && column < float(view.lens.width) &&
-           row < float(view.lens.height);
-    const Ints pixel = stdx::static_simd_cast<Ints>(choose(seen, row, 0)) * view.lens.width +
-                       stdx::static_simd_cast<Ints>(choose(seen, column, 0));
-    return {seen, numbers_of(pixel)};
 }
 
 /// Folds what the frame says into the voxels of a brick from `slot` on, which are at `p`.
 /// Curless and Levoy 1996, eq. 3 and 4.
 void fold_row(Brick& brick, std::size_t slot, const Vectors& p, const Observation& seen,
               float truncation, float max_weight) {
-    const SeenAt at = pixels_of(p, seen.view);
+    const SeenAt at = seen.view.pixels_of(p);
     if (none_of(at.seen)) return;
     const auto read = [&](auto member) {
         return Floats([&](auto lane) {
@@ -126,13 +115,8 @@ void fold_row(Brick& brick, std::size_t slot, const Vectors& p, const Observatio
     where(folded, sum) = stdx::min(sum + weight, Floats(max_weight));
     mean.copy_to(&brick.distance[slot], stdx::vector_aligned);
     sum.copy_to(&brick.weight[slot], stdx::vector_aligned);
-    if (seen.color.empty()) return;
-    const Lanes colored = folded && stdx::abs(distance) < 0.5f;
-    if (none_of(colored)) return;
-    for (std::size_t lane = 0; lane < lane_count; ++lane) {
-        if (!colored[lane]) continue;
-        fold_color(brick, slot + lane, seen.color.pixels[std::size_t(at.pixel[lane])]);
-    }
+    const Lanes near = folded && stdx::abs(distance) < 0.5f;
+    if (!seen.color.empty() && any_of(near)) fold_colors(brick, slot, p, near, seen);
 }
 
 void fold_brick(Brick& brick, float voxel_size, const Observation& seen, float truncation,
@@ -186,9 +170,11 @@ VoxelVolume make_volume(const FusionSettings& settings) {
     return volume;
 }
 
-void fuse_surface(VoxelVolume& volume, const SurfaceMap& surface, const Image<EncodedRgb>& color,
+void fuse_surface(VoxelVolume& volume, const SurfaceMap& surface, const SeenColor& color,
                   const FusionSettings& settings) {
-    require(color.empty() || same_size(color, surface.position), "color and depth differ in size");
+    require(color.image.empty() ||
+                (color.image.width == color.lens.width && color.image.height == color.lens.height),
+            "the color image and its lens differ in size");
     const Observation seen = observe(surface, color, settings);
     allocate_bricks(volume, surface);
     const std::vector<int> bricks = bricks_in_view(volume, seen);
@@ -200,7 +186,8 @@ void fuse_surface(VoxelVolume& volume, const SurfaceMap& surface, const Image<En
 
 void fuse_depth(VoxelVolume& volume, const Image<float>& depth, const Image<EncodedRgb>& color,
                 const Lens& lens, const Pose& world_from_camera, const FusionSettings& settings) {
-    fuse_surface(volume, surface_from_depth(depth, lens, world_from_camera), color, settings);
+    fuse_surface(volume, surface_from_depth(depth, lens, world_from_camera), {color, lens, Pose{}},
+                 settings);
 }
 
 }  // namespace inlay

@@ -24,15 +24,23 @@ void validate(const FusionSettings& settings);
 /// An empty volume.
 VoxelVolume make_volume(const FusionSettings& settings);
 
+/// The photograph that belongs to a depth image.
+struct SeenColor {
+    const Image<EncodedRgb>& image;  // may be empty
+    Lens lens;                       // of the image
+    Pose color_from_depth;           // from the depth camera's frame to the color camera's
+};
+
 /// Folds the surface that a frame saw, at its pose, into every voxel within the truncation of the
-/// seen surface or in front of it: a weighted running mean of the distance to the surface's tangent
+/// surface or in front of it: a weighted running mean of the distance to the surface's tangent
 /// plane. Curless and Levoy 1996, eq. 3 and 4; differs: the weight is capped, and it falls with
-/// distance and obliqueness as a structured-light camera's accuracy does. `color` may be empty,
-/// else it is registered to the surface. Same bytes for any number of threads.
-void fuse_surface(VoxelVolume& volume, const SurfaceMap& surface, const Image<EncodedRgb>& color,
+/// distance and obliqueness as a structured-light camera's accuracy does. Same bytes for any number
+/// of threads.
+void fuse_surface(VoxelVolume& volume, const SurfaceMap& surface, const SeenColor& color,
                   const FusionSettings& settings);
 
-/// The same for a filtered depth image (m, 0 = not measured).
+/// The same for a filtered depth image (m, 0 = not measured) with a color image that is empty or
+/// registered to it.
 void fuse_depth(VoxelVolume& volume, const Image<float>& depth, const Image<EncodedRgb>& color,
                 const Lens& lens, const Pose& world_from_camera, const FusionSettings& settings);
 

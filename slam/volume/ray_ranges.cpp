@@ -6,14 +6,15 @@ namespace inlay {
 namespace {
 
 constexpr int pixels_per_cell = 8;
-constexpr int reach = 2;  // voxels
+constexpr int reach = 1;           // voxels beyond a brick that trilinear distances need
+constexpr int gradient_reach = 2;  // that gradients need
 
 struct Box {
     glm::vec2 lowest{1e30f}, highest{-1e30f};
     ZRange z;
 };
 
-/// Bounds of a brick, grown by what a gradient reads around a point, as (x/z, y/z) and z. A brick across the near plane bounds nothing: it may appear anywhere.
+/// Bounds of a brick, grown by what a distance reads around a point, as (x/z, y/z) and z. A brick across the near plane bounds nothing: it may appear anywhere.
 Box bounds(const Brick& brick, float voxel_size, const Pose& camera_from_world, float nearest) {
     const glm::mat3 rotation(camera_from_world.rotation);
     const glm::vec3 translation(camera_from_world.translation);
@@ -35,21 +36,28 @@ Box bounds(const Brick& brick, float voxel_size, const Pose& camera_from_world, 
     return box;
 }
 
-/// Whether any cell of the grid sees the box; those that do take its range.
-bool mark(RayRanges& ranges, const Box& box) {
+/// The slices that [nearest, farthest] touches.
+std::uint64_t slices_between(float nearest, float farthest) {
+    const std::uint64_t all = ~std::uint64_t(0);
+    return (all << ZRange::slice_of(nearest)) &
+           (all >> (ZRange::slices - 1 - ZRange::slice_of(farthest)));
+}
+
+void mark(RayRanges& ranges, const Box& box) {
     const glm::vec2 size(ranges.cells.width, ranges.cells.height);
     const auto cell = [&](const glm::vec2& at) {
         return glm::clamp((at - ranges.lowest) * ranges.cells_per_unit, glm::vec2(-1), size);
     };
+    const std::uint64_t occupied = slices_between(box.z.nearest, box.z.farthest);
     const glm::ivec2 from(glm::floor(cell(box.lowest))), to(glm::floor(cell(box.highest)));
     for (int y = std::max(from.y, 0); y <= std::min(to.y, ranges.cells.height - 1); ++y) {
         for (int x = std::max(from.x, 0); x <= std::min(to.x, ranges.cells.width - 1); ++x) {
             ZRange& range = ranges.cells(x, y);
             range.nearest = std::min(range.nearest, box.z.nearest);
             range.farthest = std::max(range.farthest, box.z.farthest);
+            range.occupied |= occupied;
         }
     }
-    return from.x < ranges.cells.width && from.y < ranges.cells.height && to.x >= 0 && to.y >= 0;
 }
 
 }  // namespace
@@ -62,7 +70,7 @@ RayRanges ray_ranges(const VoxelVolume& volume, const CameraView& view,
     ranges.lowest = view.lowest;
     ranges.cells_per_unit =
         glm::vec2(ranges.cells.width, ranges.cells.height) / (view.highest - view.lowest);
-    const float radius = volume.voxel_size * float(brick_side + 2 * reach) * 0.87f;
+    const float radius = volume.voxel_size * float(brick_side + 2 * gradient_reach) * 0.87f;
     const glm::mat3 rotation(camera_from_world.rotation);
     const glm::vec3 translation(camera_from_world.translation);
     int number = 0;
@@ -71,7 +79,8 @@ RayRanges ray_ranges(const VoxelVolume& volume, const CameraView& view,
         const glm::vec3 centre = (glm::vec3(brick.key * brick_side) + 3.5f) * volume.voxel_size;
         if (!view.may_see(rotation * centre + translation, radius)) continue;
         const Box box = bounds(brick, volume.voxel_size, camera_from_world, nearest);
-        if (box.z.farthest > nearest && mark(ranges, box)) ranges.bricks.push_back(own);
+        ranges.bricks.push_back(own);
+        if (box.z.farthest > nearest) mark(ranges, box);
     }
     return ranges;
 }

@@ -5,20 +5,36 @@
 #include "slam/depth/camera_view.h"
 #include "slam/volume/voxel_volume.h"
 
+#include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <vector>
 
 namespace inlay {
 
-/// Bounds of z over the bricks that a ray may meet.
+/// Where along z (m, camera frame) there are bricks that a ray may meet.
 struct ZRange {
-    float nearest = 1e30f, farthest = 0;  // m, camera frame; empty if nearest > farthest
+    static constexpr float slice = 0.1f;  // m, thickness
+    static constexpr int slices = 64;     // the last one goes on without end
+
+    float nearest = 1e30f, farthest = 0;  // bounds; empty if nearest > farthest
+    std::uint64_t occupied = 0;           // a bit for each slice
+
+    static int slice_of(float z) { return std::clamp(int(z / slice), 0, slices - 1); }
+
+    /// `z`, if its slice is occupied, else the beginning of the next one that is; 1e30 if none is.
+    float occupied_from(float z) const {
+        const int first = slice_of(z);
+        const int ahead = std::countr_zero(occupied >> first);
+        return ahead == 0 ? z : ahead < slices ? float(first + ahead) * slice : 1e30f;
+    }
 };
 
 /// A coarse grid of ZRange over the view's rays.
 struct RayRanges {
     Image<ZRange> cells;
     glm::vec2 lowest{0}, cells_per_unit{0};
-    std::vector<int> bricks;  // numbers of those that a ray may meet, ascending
+    std::vector<int> bricks;  // numbers of those that may be in view, ascending
 
     const ZRange& of(const glm::vec3& ray) const {
         const glm::vec2 at = (glm::vec2(ray) - lowest) * cells_per_unit;

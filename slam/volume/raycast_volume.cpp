@@ -14,7 +14,6 @@ namespace inlay {
 namespace {
 
 constexpr float surely_far = 0.7f;  // of the truncation; nearer, the field is read trilinearly
-constexpr float caution = 0.8f;     // share of the distance that a ray advances
 constexpr int refinements = 2;      // of a crossing
 
 /// Eight neighbouring pixels' rays in the voxels of a grid, by z in metres.
@@ -24,14 +23,16 @@ struct Rays {
     Floats truncation;           // m of z that a ray needs for one truncation
     Floats voxel;                // m of z that it needs for one voxel
     Floats nearest, farthest;    // m, where it looks
+    std::array<const ZRange*, lane_count> ranges;
 
     Vectors at(const Floats& z) const {
         return {eye.x + z * direction.x, eye.y + z * direction.y, eye.z + z * direction.z};
     }
 };
 
-/// Metres of z until rays leave the cells of the bricks that hold the points, and a little more.
-Floats beyond_brick(const Rays& rays, const Vectors& p) {
+/// z where rays that are at `z` leave the cells of the bricks that hold the points, and a little
+/// more, or where the next bricks are.
+Floats next_brick(const Rays& rays, const Vectors& p, const Floats& z_here) {
     const auto ahead = [](const Floats& x, const Floats& direction, const Floats& inverse) {
         const Floats first = stdx::floor((x + 0.5f) * (1.0f / brick_side)) * float(brick_side);
         const Floats wall = first + choose(direction > 0, brick_side - 0.5f, -0.5f);
@@ -40,7 +41,11 @@ Floats beyond_brick(const Rays& rays, const Vectors& p) {
     const Floats x = ahead(p.x, rays.direction.x, rays.inverse.x);
     const Floats y = ahead(p.y, rays.direction.y, rays.inverse.y);
     const Floats z = ahead(p.z, rays.direction.z, rays.inverse.z);
-    return stdx::max(stdx::min(stdx::min(x, y), z), Floats(0)) + 0.02f * rays.voxel;
+    const Floats beyond = z_here + stdx::max(stdx::min(stdx::min(x, y), z), Floats(0)) +
+                          0.02f * rays.voxel;
+    return Floats([&](auto lane) {
+        return std::min(rays.ranges[lane]->occupied_from(beyond[lane]), rays.farthest[lane] + 1);
+    });
 }
 
 /// Where rays pass from the free side (z0, d0 > 0) to the other (z1, d1 <= 0).
@@ -71,11 +76,12 @@ Crossings first_crossings(const BrickGrid& grid, const Rays& rays) {
         const Lanes free = d > 0 && d < 1.5f;
         d_free = choose(free, d, -1);
         z_free = z;
-        const Floats short_step = 0.5f * rays.voxel;
-        Floats step = choose(free, stdx::max(short_step, caution * d * rays.truncation), short_step);
-        if (any_of(absent && going)) where(absent, step) = beyond_brick(rays, p);
+        // Near a surface that it faces, a ray steps behind it, by half a voxel.
+        const Floats past = choose(near, 0.5f * rays.voxel, 0);
+        const Floats next = z + choose(free, d * rays.truncation + past, rays.voxel);
         going = going && !met;
-        where(going, z) += step;
+        where(going, z) = next;
+        if (any_of(absent && going)) where(absent && going, z) = next_brick(rays, p, z_free);
         going = going && z <= rays.farthest;
     }
     return found;
@@ -112,6 +118,7 @@ Floats safe_inverse(const Floats& x) {
 /// The rays of pixels (x, y) to (x + 7, y); those beyond the row look nowhere.
 Rays rays_of(const View& view, int x, int y) {
     const Image<glm::vec3>& table = *view.camera.rays;
+    Rays rays;
     std::array<glm::vec3, lane_count> directions;
     std::array<float, lane_count> length, nearest, farthest;
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
@@ -123,8 +130,8 @@ Rays rays_of(const View& view, int x, int y) {
         nearest[lane] = std::min(range.nearest, view.settings.farthest);
         farthest[lane] = std::min(range.farthest, view.settings.farthest);
         if (column >= table.width) farthest[lane] = -1;
+        rays.ranges[lane] = &range;
     }
-    Rays rays;
     rays.eye = view.eye;
     rays.direction = {Floats([&](auto lane) { return directions[lane].x; }),
                       Floats([&](auto lane) { return directions[lane].y; }),
