@@ -3,6 +3,7 @@
 #include "recordings/base/check.h"
 #include "recordings/base/lanes.h"
 #include "recordings/base/parallel.h"
+#include "slam/depth/framed_depth.h"
 #include "slam/depth/steep_surface.h"
 
 #include <algorithm>
@@ -18,30 +19,6 @@ bool measured(float z, const DepthSettings& s) {
     return std::isfinite(z) && z >= s.nearest && z <= s.farthest;
 }
 
-/// A depth image in a frame of holes, so that windows and rows of eight need no bounds.
-struct Framed {
-    int margin = 0;
-    Image<float> depth;
-
-    const float* at(int x, int y) const {
-        return &depth.pixels[depth.index(x + margin, y + margin)];
-    }
-};
-
-Framed framed(const Image<float>& depth, int margin) {
-    Framed result{margin, Image<float>(depth.width + 2 * margin + lane_count,
-                                       depth.height + 2 * margin, 0.0f)};
-    for (int y = 0; y < depth.height; ++y) {
-        const auto row = depth.pixels.begin() + std::ptrdiff_t(depth.index(0, y));
-        std::copy(row, row + depth.width,
-                  result.depth.pixels.begin() +
-                      std::ptrdiff_t(result.depth.index(margin, y + margin)));
-    }
-    return result;
-}
-
-Floats eight(const float* from) { return Floats(from, stdx::element_aligned); }
-
 /// Writes the lanes that lie within a row.
 void store(const Floats& values, Image<float>& image, int x, int y) {
     const auto numbers = numbers_of(values);
@@ -50,13 +27,13 @@ void store(const Floats& values, Image<float>& image, int x, int y) {
 }
 
 /// Of eight measured pixels, those with too few neighbours on their own surface.
-Lanes stand_alone(const Framed& depth, int x, int y, const DepthSettings& settings) {
-    const Floats z = eight(depth.at(x, y));
-    const Floats step = settings.step * settings.sensor_noise * depth_sigma(z);
+Lanes stand_alone(const FramedDepth& depth, int x, int y, const DepthSettings& settings) {
+    const Floats z = depth.eight(x, y);
+    const Floats step = depth_step(z, settings);
     Floats neighbours = -1;  // the pixel itself is counted below
     for (int v = -1; v <= 1; ++v) {
         for (int u = -1; u <= 1; ++u)
-            where(stdx::abs(eight(depth.at(x + u, y + v)) - z) <= step, neighbours) += 1;
+            where(stdx::abs(depth.eight(x + u, y + v) - z) <= step, neighbours) += 1;
     }
     return z > 0 && neighbours < float(least_neighbours);
 }
@@ -75,16 +52,16 @@ std::vector<float> spatial_weights(const DepthSettings& settings) {
 }
 
 /// Eight smoothed depths; holes stay 0.
-Floats smoothed(const Framed& clean, int x, int y, const std::vector<float>& spatial,
+Floats smoothed(const FramedDepth& clean, int x, int y, const std::vector<float>& spatial,
                 const DepthSettings& settings) {
-    const Floats z = eight(clean.at(x, y));
-    const Floats per_step = 1.0f / (settings.step * settings.sensor_noise * depth_sigma(z));
+    const Floats z = clean.eight(x, y);
+    const Floats per_step = 1.0f / (depth_step(z, settings));
     const int r = settings.smoothing_radius;
     Floats sum = 0, weight = 0;
     const float* near = spatial.data();
     for (int v = -r; v <= r; ++v) {
         for (int u = -r; u <= r; ++u, ++near) {
-            const Floats beyond = eight(clean.at(x + u, y + v)) - z, steps = beyond * per_step;
+            const Floats beyond = clean.eight(x + u, y + v) - z, steps = beyond * per_step;
             const Floats kept = stdx::max(1 - steps * steps, Floats(0));
             const Floats w = *near * (kept * kept);
             sum += w * beyond;
@@ -112,7 +89,7 @@ Image<float> clean_depth(const Image<float>& depth, const DepthSettings& setting
     Image<float> in_range(depth.width, depth.height);
     std::transform(depth.pixels.begin(), depth.pixels.end(), in_range.pixels.begin(),
                    [&](float z) { return measured(z, settings) ? z : 0.0f; });
-    const Framed surroundings = framed(in_range, 1);
+    const FramedDepth surroundings = framed(in_range, 1);
     Image<unsigned char> alone(depth.width, depth.height);
     parallel_rows(depth.height, [&](int y) {
         for (int x = 0; x < depth.width; x += lane_count) {
@@ -135,7 +112,7 @@ Image<float> clean_depth(const Image<float>& depth, const DepthSettings& setting
 Image<float> smooth_depth(const Image<float>& clean, const DepthSettings& settings) {
     if (settings.smoothing_radius == 0) return clean;
     const std::vector<float> spatial = spatial_weights(settings);
-    const Framed surroundings = framed(clean, settings.smoothing_radius);
+    const FramedDepth surroundings = framed(clean, settings.smoothing_radius);
     Image<float> result(clean.width, clean.height);
     parallel_rows(clean.height, [&](int y) {
         for (int x = 0; x < clean.width; x += lane_count)

@@ -27,7 +27,8 @@ Number depth_sigma(Number z) {
 }
 
 /// Depth difference (m) at `z` (m) beyond which two neighbouring pixels see different surfaces.
-inline float depth_step(float z, const DepthSettings& settings) {
+template <class Number>
+Number depth_step(Number z, const DepthSettings& settings) {
     return settings.step * settings.sensor_noise * depth_sigma(z);
 }
 

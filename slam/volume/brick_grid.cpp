@@ -8,6 +8,8 @@ namespace {
 
 constexpr std::array<int, 3> slot_stride{1, brick_side, brick_side * brick_side};
 
+constexpr float least_share = 0.5f;  // of the voxels around a point, by weight, that must be known
+
 const Brick& absent_brick() {
     static const Brick brick = [] {
         Brick absent;
@@ -61,76 +63,79 @@ Floats BrickGrid::nearest_distance(const Vectors& p) const {
     return read(x.brick[0] + y.brick[0] + z.brick[0], x.slot[0] + y.slot[0] + z.slot[0]);
 }
 
+/// A mean over those of some voxels that are known.
+struct KnownMean {
+    Floats sum = 0, share = 0;
+
+    void add(const Floats& weight, const Floats& distance) {
+        const Lanes known = distance < 1.5f;
+        where(known, sum) += weight * distance;
+        where(known, share) += weight;
+    }
+    /// Adds the rise from a voxel to its neighbor.
+    void add_rise(const Floats& weight, const Floats& from, const Floats& to) {
+        const Lanes known = from < 1.5f && to < 1.5f;
+        where(known, sum) += weight * (to - from);
+        where(known, share) += weight;
+    }
+    /// unknown_distance where too little is known.
+    Floats value() const {
+        const Lanes known = share >= least_share;
+        return choose(known, sum / choose(known, share, 1), unknown_distance);
+    }
+};
+
 Floats BrickGrid::distance(const Vectors& p) const {
     const Vectors base{stdx::floor(p.x), stdx::floor(p.y), stdx::floor(p.z)};
     const Axis x = axis<2>(whole(base.x), 0), y = axis<2>(whole(base.y), 1),
                z = axis<2>(whole(base.z), 2);
     const Vectors f{p.x - base.x, p.y - base.y, p.z - base.z};
     const std::array<Floats, 2> wx{1 - f.x, f.x}, wy{1 - f.y, f.y}, wz{1 - f.z, f.z};
-    Floats sum = 0, largest = -1;
+    KnownMean mean;
     for (std::size_t k = 0; k < 2; ++k) {
         for (std::size_t j = 0; j < 2; ++j) {
             const Ints bricks = y.brick[j] + z.brick[k], slots = y.slot[j] + z.slot[k];
-            for (std::size_t i = 0; i < 2; ++i) {
-                const Floats d = read(x.brick[i] + bricks, x.slot[i] + slots);
-                sum += wx[i] * wy[j] * wz[k] * d;
-                largest = stdx::max(largest, d);
-            }
+            for (std::size_t i = 0; i < 2; ++i)
+                mean.add(wx[i] * wy[j] * wz[k], read(x.brick[i] + bricks, x.slot[i] + slots));
         }
     }
-    return choose(largest < 1.5f, sum, unknown_distance);
+    return mean.value();
 }
 
 Vectors BrickGrid::gradient(const Vectors& p) const {
     const Vectors base{stdx::floor(p.x), stdx::floor(p.y), stdx::floor(p.z)};
-    const Vectors f{p.x - base.x, p.y - base.y, p.z - base.z};
-    const std::array<Axis<4>, 3> around{axis<4>(whole(base.x) - 1, 0), axis<4>(whole(base.y) - 1, 1),
+    const std::array<Floats, 3> f{p.x - base.x, p.y - base.y, p.z - base.z};
+    const std::array<Axis<4>, 3> around{axis<4>(whole(base.x) - 1, 0),
+                                        axis<4>(whole(base.y) - 1, 1),
                                         axis<4>(whole(base.z) - 1, 2)};
-    const auto at = [&](std::size_t i, std::size_t j, std::size_t k) {
-        return read(around[0].brick[i] + around[1].brick[j] + around[2].brick[k],
-                    around[0].slot[i] + around[1].slot[j] + around[2].slot[k]);
+    const auto at = [&](const std::array<std::size_t, 3>& i) {
+        return read(around[0].brick[i[0]] + around[1].brick[i[1]] + around[2].brick[i[2]],
+                    around[0].slot[i[0]] + around[1].slot[i[1]] + around[2].slot[i[2]]);
     };
-    const std::array<std::array<Floats, 2>, 3> weight{
-        {{1 - f.x, f.x}, {1 - f.y, f.y}, {1 - f.z, f.z}}};
     std::array<Floats, 8> core;  // the voxels around the points, x fastest
     for (std::size_t c = 0; c < core.size(); ++c)
-        core[c] = at(1 + (c & 1), 1 + ((c >> 1) & 1), 1 + (c >> 2));
+        core[c] = at({1 + (c & 1), 1 + ((c >> 1) & 1), 1 + (c >> 2)});
     Lanes known(true);
-    const auto slope = [&](std::size_t which) {
-        // The distances one voxel behind and one ahead, each trilinear, as layers across the axis.
-        std::array<Floats, 4> layer;
-        std::array<Floats, 4> largest;
-        layer.fill(0);
-        largest.fill(-1);
-        const std::size_t second = (which + 1) % 3, third = (which + 2) % 3;
-        for (std::size_t n = 0; n < 4; ++n) {
-            for (std::size_t side = 0; side < 4; ++side) {
-                std::array<std::size_t, 3> corner{};
-                corner[second] = side & 1;
-                corner[third] = side >> 1;
-                Floats d;
-                if (n == 1 || n == 2) {
-                    corner[which] = n - 1;
-                    d = core[corner[0] + 2 * corner[1] + 4 * corner[2]];
-                } else {
-                    corner[second] += 1;
-                    corner[third] += 1;
-                    corner[which] = n;
-                    d = at(corner[0], corner[1], corner[2]);
-                }
-                layer[n] += weight[second][side & 1] * weight[third][side >> 1] * d;
-                largest[n] = stdx::max(largest[n], d);
-            }
+    const auto slope = [&](std::size_t axis) {
+        const std::size_t second = (axis + 1) % 3, third = (axis + 2) % 3;
+        KnownMean mean;
+        for (std::size_t side = 0; side < 4; ++side) {  // four lines of four voxels along the axis
+            std::array<std::size_t, 3> first{};
+            first[second] = 1 + (side & 1);
+            first[third] = 1 + (side >> 1);
+            auto last = first;
+            last[axis] = 3;
+            const std::size_t inner = ((side & 1) << second) + ((side >> 1) << third);
+            const Floats d1 = core[inner], d2 = core[inner + (std::size_t(1) << axis)];
+            const Floats line = 0.5f * ((side & 1) ? f[second] : 1 - f[second]) *
+                                ((side >> 1) ? f[third] : 1 - f[third]);
+            mean.add_rise(line * (1 - f[axis]), at(first), d1);
+            mean.add_rise(line, d1, d2);
+            mean.add_rise(line * f[axis], d2, at(last));
         }
-        const Floats low = weight[which][0], high = weight[which][1];
-        const Floats behind = low * layer[0] + high * layer[1];
-        const Floats here = low * layer[1] + high * layer[2];
-        const Floats ahead = low * layer[2] + high * layer[3];
-        const Lanes middle = stdx::max(largest[1], largest[2]) < 1.5f;
-        const Lanes back = largest[0] < 1.5f, front = largest[3] < 1.5f;
-        known = known && middle && (back || front);
-        const Floats one_sided = choose(front, ahead - here, here - behind);
-        return choose(back && front, (ahead - behind) * 0.5f, one_sided);
+        const Floats rise = mean.value();
+        known = known && rise < 1.5f;
+        return rise;
     };
     const Vectors g{slope(0), slope(1), slope(2)};
     return {choose(known, g.x, 0), choose(known, g.y, 0), choose(known, g.z, 0)};

@@ -25,11 +25,11 @@ public:
 
     /// Distances (of the truncation) of the voxels nearest to the points.
     Floats nearest_distance(const Vectors& p) const;
-    /// Distances at the points, trilinear; unknown_distance where one of the eight voxels around
-    /// a point was never seen.
+    /// Distances at the points, trilinear over those of the eight voxels around each that are
+    /// known; unknown_distance where these have less than half of the weight.
     Floats distance(const Vectors& p) const;
-    /// Its gradient per voxel, over two voxels, or one at the border of what was seen; 0 where it
-    /// is not known.
+    /// Its gradient per voxel: means of the rises from voxel to voxel over two voxels, of those that
+    /// are known; 0 where these have less than half of the weight.
     Vectors gradient(const Vectors& p) const;
     /// The weight of the voxel nearest to a point.
     float nearest_weight(const glm::vec3& p) const;
