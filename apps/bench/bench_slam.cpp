@@ -31,7 +31,9 @@ namespace {
 double cpu_ms() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    const auto ms = [](const timeval& t) { return 1e3 * double(t.tv_sec) + 1e-3 * double(t.tv_usec); };
+    const auto ms = [](const timeval& t) {
+        return 1e3 * double(t.tv_sec) + 1e-3 * double(t.tv_usec);
+    };
     return ms(usage.ru_utime) + ms(usage.ru_stime);
 }
 
@@ -90,15 +92,17 @@ void time_stages(const SlamState& state, const RgbdFrame& frame, const SlamSetti
         pyramid.push_back(surface_from_depth(level.depth, level.lens, Pose{}, settings.depth));
     const SurfaceMap model = raycast_volume(state.volume, frame.lens, pose, settings.raycast);
     VoxelVolume volume = state.volume;
-    std::printf("stages on the last frame at full size, ms of processor time (%d threads' sum):\n", 2);
+    std::printf("stages on the last frame at full size, ms of processor time (%d threads' sum):\n",
+                2);
     time_stage("clean_depth", [&] { clean_depth(frame.depth, settings.depth); });
     time_stage("smooth_depth", [&] { smooth_depth(clean, settings.depth); });
     time_stage("surface_from_depth",
                [&] { surface_from_depth(smooth, frame.lens, pose, settings.depth); });
-    time_stage("track_frame", [&] {
-        track_frame(pyramid, model, std::vector<Pose>{pose}, settings.track);
+    time_stage("track_frame",
+               [&] { track_frame(pyramid, model, std::vector<Pose>{pose}, settings.track); });
+    time_stage("fuse_surface", [&] {
+        fuse_surface(volume, surface, {frame.color, frame.lens, Pose{}}, settings.fusion);
     });
-    time_stage("fuse_surface", [&] { fuse_surface(volume, surface, {frame.color, frame.lens, Pose{}}, settings.fusion); });
     time_stage("raycast_volume",
                [&] { raycast_volume(state.volume, frame.lens, pose, settings.raycast); });
     time_stage("extract_mesh", [&] { extract_mesh(state.volume); });
@@ -122,13 +126,12 @@ int run(int count, char** arguments) {
         const TrackResult tracked = track_and_fuse(state, frame, settings, std::nullopt);
         spent += cpu_ms() - before;
         lost += tracked.status == TrackingStatus::lost;
-        poses.poses.push_back({std::int64_t(std::llround(frame.time * 1e9)),
-                               {tracked.world_from_camera, ""}});
+        poses.poses.push_back(
+            {std::int64_t(std::llround(frame.time * 1e9)), {tracked.world_from_camera, ""}});
         ++frames;
         if (frames <= 20 || frames > 60 || frames % 5 != 0) continue;
         const MapQuality q = quality_of(
-            raycast_volume(state.volume, frame.lens, tracked.world_from_camera,
-                           settings.raycast),
+            raycast_volume(state.volume, frame.lens, tracked.world_from_camera, settings.raycast),
             frame.depth);
         covered += q.covered, filled += q.filled, angle += q.angle;
         ++judged;

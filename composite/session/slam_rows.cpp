@@ -7,6 +7,8 @@ std::vector<SettingRow> slam_rows() {
     return {
         choice<bool>("slam.poses", {{"tracked", false}, {"recorded", true}},
                      INLAY_MEMBER(use_recorded_poses)),
+        choice<bool>("slam.half_resolution", {{"off", false}, {"on", true}},
+                     INLAY_MEMBER(slam.half_resolution)),
         row("slam.depth.nearest", "m", INLAY_MEMBER(slam.depth.nearest)),
         row("slam.depth.farthest", "m", INLAY_MEMBER(slam.depth.farthest)),
         row("slam.depth.step", "standard deviations", INLAY_MEMBER(slam.depth.step)),
@@ -28,7 +30,8 @@ std::vector<SettingRow> slam_rows() {
         row("slam.track.iterations", "per level", INLAY_MEMBER(slam.track.iterations)),
         row("slam.track.coarse_distance", "m", INLAY_MEMBER(slam.track.coarse_distance)),
         row("slam.track.fine_distance", "m", INLAY_MEMBER(slam.track.fine_distance)),
-        row("slam.track.largest_angle", "rad", INLAY_MEMBER(slam.track.largest_angle)),
+        row("slam.track.coarse_angle", "rad", INLAY_MEMBER(slam.track.coarse_angle)),
+        row("slam.track.fine_angle", "rad", INLAY_MEMBER(slam.track.fine_angle)),
         row("slam.track.least_information", "0..1", INLAY_MEMBER(slam.track.least_information)),
         row("slam.track.tracked_share", "0..1", INLAY_MEMBER(slam.track.tracked_share)),
         row("slam.track.weak_share", "0..1", INLAY_MEMBER(slam.track.weak_share)),

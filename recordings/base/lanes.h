@@ -2,7 +2,6 @@
 #pragma once
 
 #include <experimental/simd>  // the language's own SIMD types (Parallelism TS 2)
-
 #include <glm/glm.hpp>
 
 #include <array>

@@ -48,7 +48,8 @@ SeenAt CameraView::pixels_of(const Vectors& p) const {
     }
     column = stdx::floor(column + 0.5f);
     row = stdx::floor(row + 0.5f);
-    seen = seen && column >= 0 && row >= 0 && column < float(lens.width) && row < float(lens.height);
+    seen =
+        seen && column >= 0 && row >= 0 && column < float(lens.width) && row < float(lens.height);
     const Ints pixel = stdx::static_simd_cast<Ints>(choose(seen, row, 0)) * lens.width +
                        stdx::static_simd_cast<Ints>(choose(seen, column, 0));
     return {seen, numbers_of(pixel)};

@@ -45,8 +45,7 @@ struct Eight {
 
     /// Cross products of the slopes along the rows and the columns.
     Vectors across(const DepthSettings& settings) const {
-        const Floats step =
-            depth_step(depth.eight(at.x, at.y), settings);
+        const Floats step = depth_step(depth.eight(at.x, at.y), settings);
         const Vectors right = neighbours({1, 0}, step), left = neighbours({-1, 0}, step);
         const Vectors below = neighbours({0, 1}, step), above = neighbours({0, -1}, step);
         return cross({right.x - left.x, right.y - left.y, right.z - left.z},
@@ -92,7 +91,8 @@ SurfaceMap surface_from_depth(const Image<float>& depth, const Lens& lens,
                 if (!std::isfinite(z) || z <= 0) continue;
                 const auto lane = std::size_t(x - first);
                 glm::vec3 across(slopes.x[lane], slopes.y[lane], slopes.z[lane]);
-                if (across == glm::vec3(0)) across = across_steep(depth, *view.rays, {x, y}, settings);
+                if (across == glm::vec3(0))
+                    across = across_steep(depth, *view.rays, {x, y}, settings);
                 const glm::vec3 normal = normal_from(across, (*view.rays)(x, y));
                 if (normal == glm::vec3(0)) continue;
                 surface.position(x, y) = z * (*view.rays)(x, y);

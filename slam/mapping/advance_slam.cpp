@@ -124,7 +124,7 @@ SlamSettings accurate_slam() { return {}; }
 SlamSettings fast_slam() {
     SlamSettings settings;
     settings.half_resolution = true;
-    settings.depth.smoothing_radius = 2;
+    settings.depth.smoothing_radius = 1;
     settings.fusion.voxel_size = 0.012f;
     settings.fusion.truncation = 0.048f;
     settings.track.iterations = 6;
@@ -165,8 +165,8 @@ SlamStep advance_slam(SlamState& state, const RgbdFrame& frame, const SlamSettin
     const Pose& pose = step.tracking.world_from_camera;
     const bool seen = state.model && same_size(state.model->lens, frame.lens) &&
                       step.tracking.status != TrackingStatus::lost;
-    step.surface = seen ? *state.model
-                        : raycast_volume(state.volume, frame.lens, pose, settings.raycast);
+    step.surface =
+        seen ? *state.model : raycast_volume(state.volume, frame.lens, pose, settings.raycast);
     step.surface = step.tracking.status == TrackingStatus::lost
                        ? uncertain(std::move(step.surface))
                        : completed(std::move(step.surface), own_surface(state, frame, settings),

@@ -57,9 +57,8 @@ public:
                 return map.pixels[std::size_t(at.pixel[lane])];
             });
         };
-        const Floats confidence([&](auto lane) {
-            return model_.confidence.pixels[std::size_t(at.pixel[lane])];
-        });
+        const Floats confidence(
+            [&](auto lane) { return model_.confidence.pixels[std::size_t(at.pixel[lane])]; });
         const Vectors surface = others(model_.position);
         pairs.seen = pairs.observed && at.seen && surface.z > 0 && confidence > 0;
         pairs.normal = others(model_.normal);
@@ -106,8 +105,8 @@ void add(RowSums& sums, const Pairs& pairs, float scale) {
     sums.inliers += popcount(inlier);
     where(inlier, sums.squared_residual) += pairs.residual * pairs.residual;
     const Floats kept = 1 - deviation * deviation * (1 / (tukey * tukey));
-    const Floats weight = choose(pairs.paired && deviation < tukey,
-                                 kept * kept / (pairs.sigma * pairs.sigma), 0);
+    const Floats weight =
+        choose(pairs.paired && deviation < tukey, kept * kept / (pairs.sigma * pairs.sigma), 0);
     const Vectors turn = cross(pairs.point, pairs.normal);
     const std::array<Floats, 6> j{turn.x,         turn.y,         turn.z,
                                   pairs.normal.x, pairs.normal.y, pairs.normal.z};

@@ -23,8 +23,11 @@ struct Attempt {
 
 PairingSettings pairing_of(int level, const TrackSettings& settings) {
     const float share = settings.levels > 1 ? float(level) / float(settings.levels - 1) : 0.0f;
-    const float ratio = settings.coarse_distance / settings.fine_distance;
-    return {settings.fine_distance * std::pow(ratio, share), std::cos(settings.largest_angle), 1};
+    const auto between = [&](float fine, float coarse) {
+        return fine * std::pow(coarse / fine, share);
+    };
+    return {between(settings.fine_distance, settings.coarse_distance),
+            std::cos(between(settings.fine_angle, settings.coarse_angle)), 1};
 }
 
 void solve_level(Attempt& attempt, const SurfaceMap& observed, const SurfaceMap& model,
@@ -44,10 +47,13 @@ void solve_level(Attempt& attempt, const SurfaceMap& observed, const SurfaceMap&
     }
 }
 
-/// How well an attempt explains a level: inliers at the sensor's own noise.
+/// How well an attempt explains a level: inliers at the sensor's own noise, whatever the noise of
+/// their normals.
 IcpSystem verdict(const Attempt& attempt, const SurfaceMap& observed, const SurfaceMap& model,
                   int level, const TrackSettings& settings) {
-    return icp_system(observed, model, attempt.model_from_observed, pairing_of(level, settings));
+    PairingSettings pairing = pairing_of(level, settings);
+    pairing.cosine = std::cos(settings.coarse_angle);
+    return icp_system(observed, model, attempt.model_from_observed, pairing);
 }
 
 Attempt best_attempt(std::span<const SurfaceMap> observed, const SurfaceMap& model,
@@ -92,9 +98,12 @@ void validate(const TrackSettings& s) {
             "slam.track.fine_distance must be above 0 and no more than slam.track.coarse_distance",
             ExitCode::usage);
     require(
-        s.largest_angle > 0 && s.largest_angle < 1.6f && s.least_information >= 0,
-        "slam.track.largest_angle must be 0..1.6 rad and slam.track.least_information 0 or more",
+        s.fine_angle > 0 && s.fine_angle <= s.coarse_angle && s.coarse_angle < 1.6f,
+        "slam.track.fine_angle must be above 0 and no more than slam.track.coarse_angle, which is "
+        "below 1.6 rad",
         ExitCode::usage);
+    require(s.least_information >= 0, "slam.track.least_information must be 0 or more",
+            ExitCode::usage);
     require(s.weak_share >= 0 && s.weak_share <= s.tracked_share && s.tracked_share <= 1,
             "slam.track.weak_share must be 0 or more and no more than slam.track.tracked_share, "
             "which is 1 at most",

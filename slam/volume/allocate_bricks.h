@@ -7,8 +7,8 @@
 namespace inlay {
 
 /// Allocates every brick that the line of sight of a pixel crosses within the truncation of its
-/// surface; of pixels that lie closer than a voxel, one line stands for its neighbors. Bricks are numbered by the rows and columns of the pixels that first need them, for any
-/// number of threads.
+/// surface; of pixels that lie closer than a voxel, one line stands for its neighbors. Bricks are
+/// numbered by the rows and columns of the pixels that first need them, for any number of threads.
 void allocate_bricks(VoxelVolume& volume, const SurfaceMap& surface);
 
 }  // namespace inlay

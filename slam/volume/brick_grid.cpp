@@ -6,7 +6,7 @@
 namespace inlay {
 namespace {
 
-constexpr std::array<int, 3> slot_stride{1, brick_side, brick_side * brick_side};
+constexpr std::array<int, 3> slot_stride{1, brick_side, brick_side* brick_side};
 
 constexpr float least_share = 0.5f;  // of the voxels around a point, by weight, that must be known
 

@@ -1,4 +1,5 @@
-// BrickGrid: the bricks of a box as a dense table, and the distance field at eight points at a time.
+// BrickGrid: the bricks of a box as a dense table, and the distance field at eight points at a
+// time.
 #pragma once
 
 #include "recordings/base/lanes.h"
@@ -28,8 +29,8 @@ public:
     /// Distances at the points, trilinear over those of the eight voxels around each that are
     /// known; unknown_distance where these have less than half of the weight.
     Floats distance(const Vectors& p) const;
-    /// Its gradient per voxel: means of the rises from voxel to voxel over two voxels, of those that
-    /// are known; 0 where these have less than half of the weight.
+    /// Its gradient per voxel: means of the rises from voxel to voxel over two voxels, of those
+    /// that are known; 0 where these have less than half of the weight.
     Vectors gradient(const Vectors& p) const;
     /// The weight of the voxel nearest to a point.
     float nearest_weight(const glm::vec3& p) const;

@@ -77,7 +77,8 @@ void fold_color(Brick& brick, std::size_t slot, const Rgb& color) {
 /// Folds the photograph's colors into those of eight voxels that are `near` the surface.
 void fold_colors(Brick& brick, std::size_t slot, const Vectors& p, const Lanes& near,
                  const Observation& seen) {
-    const SeenAt at = seen.color_view.pixels_of(transformed(seen.color_rotation, p, seen.color_translation));
+    const SeenAt at =
+        seen.color_view.pixels_of(transformed(seen.color_rotation, p, seen.color_translation));
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
         if (!near[lane] || !at.seen[lane]) continue;
         fold_color(brick, slot + lane, decode(seen.color.pixels[std::size_t(at.pixel[lane])]));
@@ -91,9 +92,8 @@ void fold_row(Brick& brick, std::size_t slot, const Vectors& p, const Observatio
     const SeenAt at = seen.view.pixels_of(p);
     if (none_of(at.seen)) return;
     const auto read = [&](auto member) {
-        return Floats([&](auto lane) {
-            return member(seen.planes.pixels[std::size_t(at.pixel[lane])]);
-        });
+        return Floats(
+            [&](auto lane) { return member(seen.planes.pixels[std::size_t(at.pixel[lane])]); });
     };
     const Floats weight = read([](const PixelPlane& q) { return q.weight; });
     const Floats beyond = p.z - read([](const PixelPlane& q) { return q.z; });
@@ -110,8 +110,7 @@ void fold_row(Brick& brick, std::size_t slot, const Vectors& p, const Observatio
     const Floats value = choose(behind < -truncation, 1, stdx::min(distance, Floats(1)));
     Floats mean(&brick.distance[slot], stdx::vector_aligned);
     Floats sum(&brick.weight[slot], stdx::vector_aligned);
-    where(folded, mean) =
-        (sum * mean + weight * value) / choose(folded, sum + weight, 1);
+    where(folded, mean) = (sum * mean + weight * value) / choose(folded, sum + weight, 1);
     where(folded, sum) = stdx::min(sum + weight, Floats(max_weight));
     mean.copy_to(&brick.distance[slot], stdx::vector_aligned);
     sum.copy_to(&brick.weight[slot], stdx::vector_aligned);
@@ -129,8 +128,8 @@ void fold_brick(Brick& brick, float voxel_size, const Observation& seen, float t
             brick.key * brick_side + glm::ivec3(0, row % brick_side, row / brick_side);
         const glm::vec3 p =
             seen.camera_from_world * (glm::vec3(first) * voxel_size) + seen.translation;
-        fold_row(brick, std::size_t(row) * brick_side, {p.x + steps.x, p.y + steps.y, p.z + steps.z},
-                 seen, truncation, max_weight);
+        fold_row(brick, std::size_t(row) * brick_side,
+                 {p.x + steps.x, p.y + steps.y, p.z + steps.z}, seen, truncation, max_weight);
     }
 }
 

@@ -14,14 +14,16 @@ struct Box {
     ZRange z;
 };
 
-/// Bounds of a brick, grown by what a distance reads around a point, as (x/z, y/z) and z. A brick across the near plane bounds nothing: it may appear anywhere.
+/// Bounds of a brick, grown by what a distance reads around a point, as (x/z, y/z) and z. A brick
+/// across the near plane bounds nothing: it may appear anywhere.
 Box bounds(const Brick& brick, float voxel_size, const Pose& camera_from_world, float nearest) {
     const glm::mat3 rotation(camera_from_world.rotation);
     const glm::vec3 translation(camera_from_world.translation);
     Box box;
     for (int c = 0; c < 8; ++c) {
         const glm::ivec3 corner(c & 1, (c >> 1) & 1, c >> 2);
-        const glm::vec3 voxel(brick.key * brick_side - reach + corner * (brick_side - 1 + 2 * reach));
+        const glm::vec3 voxel(brick.key * brick_side - reach +
+                              corner * (brick_side - 1 + 2 * reach));
         const glm::vec3 p = rotation * (voxel * voxel_size) + translation;
         box.z.nearest = std::min(box.z.nearest, std::max(p.z, nearest));
         box.z.farthest = std::max(box.z.farthest, p.z);

@@ -41,8 +41,8 @@ Floats next_brick(const Rays& rays, const Vectors& p, const Floats& z_here) {
     const Floats x = ahead(p.x, rays.direction.x, rays.inverse.x);
     const Floats y = ahead(p.y, rays.direction.y, rays.inverse.y);
     const Floats z = ahead(p.z, rays.direction.z, rays.inverse.z);
-    const Floats beyond = z_here + stdx::max(stdx::min(stdx::min(x, y), z), Floats(0)) +
-                          0.02f * rays.voxel;
+    const Floats beyond =
+        z_here + stdx::max(stdx::min(stdx::min(x, y), z), Floats(0)) + 0.02f * rays.voxel;
     return Floats([&](auto lane) {
         return std::min(rays.ranges[lane]->occupied_from(beyond[lane]), rays.farthest[lane] + 1);
     });
@@ -111,9 +111,7 @@ struct View {
     float truncation;  // m
 };
 
-Floats safe_inverse(const Floats& x) {
-    return 1 / choose(stdx::abs(x) > 1e-12f, x, 1e-12f);
-}
+Floats safe_inverse(const Floats& x) { return 1 / choose(stdx::abs(x) > 1e-12f, x, 1e-12f); }
 
 /// The rays of pixels (x, y) to (x + 7, y); those beyond the row look nowhere.
 Rays rays_of(const View& view, int x, int y) {
@@ -154,8 +152,7 @@ void write(SurfaceMap& map, int x, int y, const View& view, const Rays& rays,
     const Floats steepness = stdx::sqrt(dot(gradient, gradient));
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
         if (!found.met[lane] || !(steepness[lane] > 0)) continue;
-        const float weight =
-            view.grid.nearest_weight({p.x[lane], p.y[lane], p.z[lane]});
+        const float weight = view.grid.nearest_weight({p.x[lane], p.y[lane], p.z[lane]});
         if (weight <= view.settings.least_weight) continue;
         const glm::vec3& ray = (*view.camera.rays)(x + int(lane), y);
         const glm::vec3 normal =
@@ -189,15 +186,15 @@ SurfaceMap raycast_volume(const VoxelVolume& volume, const Lens& lens,
     if (ranges.bricks.empty()) return map;
     const BrickGrid grid(volume, ranges.bricks);
     const double voxels_per_metre = 1.0 / double(volume.voxel_size);
-    const View view{grid,
-                    camera,
-                    ranges,
-                    settings,
-                    glm::mat3(world_from_camera.rotation * voxels_per_metre),
-                    glm::mat3(glm::transpose(world_from_camera.rotation)),
-                    glm::vec3(world_from_camera.translation * voxels_per_metre -
-                              glm::dvec3(grid.origin())),
-                    volume.truncation};
+    const View view{
+        grid,
+        camera,
+        ranges,
+        settings,
+        glm::mat3(world_from_camera.rotation * voxels_per_metre),
+        glm::mat3(glm::transpose(world_from_camera.rotation)),
+        glm::vec3(world_from_camera.translation * voxels_per_metre - glm::dvec3(grid.origin())),
+        volume.truncation};
     parallel_rows(lens.height, [&](int y) {
         for (int x = 0; x < lens.width; x += lane_count) {
             const Rays rays = rays_of(view, x, y);

@@ -26,11 +26,11 @@ struct Brick {
 
     Brick() { distance.fill(unknown_distance); }
 
-    glm::ivec3 key{0};                      // in bricks: its first voxel is 8 * key
-    alignas(32) Plane<float> distance;      // of the truncation, -1..1; positive on the free side
-    alignas(32) Plane<float> weight{};      // observations; 0: never seen
+    glm::ivec3 key{0};                  // in bricks: its first voxel is 8 * key
+    alignas(32) Plane<float> distance;  // of the truncation, -1..1; positive on the free side
+    alignas(32) Plane<float> weight{};  // observations; 0: never seen
     std::array<Plane<std::uint16_t>, 3> color{};  // linear, 65535 = 1
-    Plane<std::uint16_t> color_weight{};    // observations of the color; 0: none
+    Plane<std::uint16_t> color_weight{};          // observations of the color; 0: none
 };
 
 /// The fused model. Voxel v has its centre at v * voxel_size (world, m). Bricks are numbered in the
