@@ -11,7 +11,7 @@
 #include "recordings/readers/trajectory.h"
 #include "slam/depth/depth_pyramid.h"
 #include "slam/depth/surface_from_depth.h"
-#include "slam/mapping/advance_slam.h"
+#include "slam/mapping/reconstruct_recording.h"
 #include "slam/mesh/extract_mesh.h"
 
 #include <sys/resource.h>
@@ -81,8 +81,8 @@ MapQuality quality_of(const SurfaceMap& model, const Image<float>& depth) {
     return {covered / measured, filled / double(depth.pixels.size()), double(*middle)};
 }
 
-void time_stages(const SlamState& state, const RgbdFrame& frame, const SlamSettings& settings) {
-    const Pose pose = state.model->world_from_camera;
+void time_stages(const VoxelVolume& model_volume, const Pose& pose, const RgbdFrame& frame,
+                 const SlamSettings& settings) {
     const Image<float> clean = clean_depth(frame.depth, settings.depth);
     const Image<float> smooth = smooth_depth(clean, settings.depth);
     SurfaceMap surface = surface_from_depth(smooth, frame.lens, pose, settings.depth);
@@ -90,8 +90,8 @@ void time_stages(const SlamState& state, const RgbdFrame& frame, const SlamSetti
     for (const DepthLevel& level :
          depth_pyramid(smooth, frame.lens, settings.track.levels, settings.depth))
         pyramid.push_back(surface_from_depth(level.depth, level.lens, Pose{}, settings.depth));
-    const SurfaceMap model = raycast_volume(state.volume, frame.lens, pose, settings.raycast);
-    VoxelVolume volume = state.volume;
+    const SurfaceMap model = raycast_volume(model_volume, frame.lens, pose, settings.raycast);
+    VoxelVolume volume = model_volume;
     std::printf("stages on the last frame at full size, ms of processor time (%d threads' sum):\n",
                 2);
     time_stage("clean_depth", [&] { clean_depth(frame.depth, settings.depth); });
@@ -104,8 +104,8 @@ void time_stages(const SlamState& state, const RgbdFrame& frame, const SlamSetti
         fuse_surface(volume, surface, {frame.color, frame.lens, Pose{}}, settings.fusion);
     });
     time_stage("raycast_volume",
-               [&] { raycast_volume(state.volume, frame.lens, pose, settings.raycast); });
-    time_stage("extract_mesh", [&] { extract_mesh(state.volume); });
+               [&] { raycast_volume(model_volume, frame.lens, pose, settings.raycast); });
+    time_stage("extract_mesh", [&] { extract_mesh(model_volume); });
 }
 
 int run(int count, char** arguments) {
@@ -114,34 +114,46 @@ int run(int count, char** arguments) {
     const int most = count > 2 ? std::atoi(arguments[2]) : int(recording.info.frames.size());
     const bool fast = count > 3 && std::string(arguments[3]) == "fast";
     const SlamSettings settings = fast ? fast_slam() : accurate_slam();
-    SlamState state = start_slam(settings);
-    Trajectory poses;
-    double spent = 0, covered = 0, filled = 0, angle = 0;
-    int frames = 0, lost = 0, judged = 0;
+    const std::vector<int>& numbers = recording.info.frames;
+    double decoding = 0;
     RgbdFrame frame;
-    for (const int number : recording.info.frames) {
-        if (frames == most) break;
-        frame = recording.load(number);
-        const double before = cpu_ms();
-        const TrackResult tracked = track_and_fuse(state, frame, settings, std::nullopt);
-        spent += cpu_ms() - before;
-        lost += tracked.status == TrackingStatus::lost;
+    const FrameSource source{std::min(most, int(numbers.size())), [&](int i) {
+                                 const double before = cpu_ms();
+                                 frame = recording.load(numbers[std::size_t(i)]);
+                                 decoding += cpu_ms() - before;
+                                 return frame;
+                             }};
+    const double before = cpu_ms();
+    const Reconstruction result =
+        reconstruct_recording(source, settings, PoseSource::tracked, [](int) { return true; });
+    const double spent = cpu_ms() - before - decoding;
+    const double peak = peak_mb();
+    Trajectory poses;
+    int lost = 0, judged = 0;
+    double covered = 0, filled = 0, angle = 0;
+    for (int i = 0; i < source.count; ++i) {
+        const ReconstructedFrame& f = result.frames[std::size_t(i)];
+        lost += f.tracking.status == TrackingStatus::lost;
         poses.poses.push_back(
-            {std::int64_t(std::llround(frame.time * 1e9)), {tracked.world_from_camera, ""}});
-        ++frames;
-        if (frames <= 20 || frames > 60 || frames % 5 != 0) continue;
-        const MapQuality q = quality_of(
-            raycast_volume(state.volume, frame.lens, tracked.world_from_camera, settings.raycast),
-            frame.depth);
+            {std::int64_t(std::llround(f.time * 1e9)), {f.tracking.world_from_camera, ""}});
+        if (i < 20 || i > 60 || i % 5 != 0) continue;
+        const Image<float> depth = source.load(i).depth;
+        const MapQuality q =
+            quality_of(raycast_volume(result.volume, frame.lens, f.tracking.world_from_camera,
+                                      settings.raycast),
+                       depth);
         covered += q.covered, filled += q.filled, angle += q.angle;
         ++judged;
     }
     std::printf("%d frames, %d lost: %.1f ms of processor time a frame, %zu bricks, peak %.0f MB\n",
-                frames, lost, spent / frames, state.volume.bricks.size(), peak_mb());
+                source.count, lost, spent / source.count, result.volume.bricks.size(), peak);
+    std::printf("%zu keyframes, %zu loops\n", result.keyframes.size(), result.loops.size());
     if (judged > 0)
         std::printf("frames 20 to 60: %.2f %% covered, %.2f %% filled, normals %.2f degrees\n",
                     100 * covered / judged, 100 * filled / judged, angle / judged);
-    if (state.model) time_stages(state, frame, settings);
+    if (!result.frames.empty())
+        time_stages(result.volume, result.frames.back().tracking.world_from_camera, frame,
+                    settings);
     if (count > 4) write_tum_trajectory(arguments[4], poses);
     return 0;
 }

@@ -1,49 +1,14 @@
 #include "slam/mapping/advance_slam.h"
 
-#include "recordings/base/check.h"
-#include "slam/depth/depth_pyramid.h"
-#include "slam/depth/surface_from_depth.h"
 #include "slam/mapping/find_way_back.h"
+#include "slam/mapping/observe_frame.h"
+#include "slam/mapping/see_model.h"
 
 #include <algorithm>
 #include <string>
 
 namespace inlay {
 namespace {
-
-/// One frame's geometry, as far as it can be trusted.
-struct Observed {
-    Image<float> clean;               // m
-    std::vector<SurfaceMap> pyramid;  // of the smoothed depth, finest first
-};
-
-void require_sizes(const RgbdFrame& frame) {
-    const auto fits = [&](int width, int height) {
-        return width == frame.lens.width && height == frame.lens.height;
-    };
-    const bool color_fits = frame.color.empty() || fits(frame.color.width, frame.color.height);
-    require(frame.lens.width > 0 && frame.lens.height > 0 && color_fits &&
-                fits(frame.depth.width, frame.depth.height),
-            "frame " + std::to_string(frame.index) +
-                ": color, depth and lens must be of one size; depth has " +
-                std::to_string(frame.depth.width) + " x " + std::to_string(frame.depth.height) +
-                " px, the lens " + std::to_string(frame.lens.width) + " x " +
-                std::to_string(frame.lens.height));
-}
-
-Observed observe(const RgbdFrame& frame, const SlamSettings& settings) {
-    Observed observed;
-    DepthLevel finest{clean_depth(frame.depth, settings.depth), frame.lens};
-    if (settings.half_resolution) finest = halve(finest, settings.depth);
-    observed.clean = std::move(finest.depth);
-    for (const DepthLevel& level :
-         depth_pyramid(smooth_depth(observed.clean, settings.depth), finest.lens,
-                       settings.track.levels, settings.depth)) {
-        observed.pyramid.push_back(
-            surface_from_depth(level.depth, level.lens, Pose{}, settings.depth));
-    }
-    return observed;
-}
 
 TrackResult certain(const Pose& world_from_camera) {
     return {world_from_camera, TrackingStatus::tracked, 1, 0, 0, 1};
@@ -56,7 +21,8 @@ std::vector<Pose> predictions(const SlamState& state) {
     return {last * (inverse(*state.before_last) * last), last};
 }
 
-TrackResult track(const SlamState& state, const Observed& observed, const SlamSettings& settings) {
+TrackResult track(const SlamState& state, const ObservedFrame& observed,
+                  const SlamSettings& settings) {
     TrackResult result;
     if (state.frames_lost == 0) {
         result = track_frame(observed.pyramid, *state.model, predictions(state), settings.track);
@@ -71,30 +37,14 @@ TrackResult track(const SlamState& state, const Observed& observed, const SlamSe
     return result;
 }
 
-TrackResult locate(const SlamState& state, const RgbdFrame& frame, const Observed& observed,
+TrackResult locate(const SlamState& state, const RgbdFrame& frame, const ObservedFrame& observed,
                    const SlamSettings& settings) {
     if (!state.model) return certain(frame.recorded_world_from_camera.value_or(Pose{}));
     if (state.volume.bricks.empty()) return certain(state.model->world_from_camera);
     return track(state, observed, settings);
 }
 
-/// The model's surface; where it has none, what the frame itself saw, as one observation.
-SurfaceMap completed(SurfaceMap model, const SurfaceMap& own, const RaycastSettings& settings) {
-    for (std::size_t i = 0; i < model.position.pixels.size(); ++i) {
-        if (model.position.pixels[i].z > 0 || own.position.pixels[i].z <= 0) continue;
-        model.position.pixels[i] = own.position.pixels[i];
-        model.normal.pixels[i] = own.normal.pixels[i];
-        model.confidence.pixels[i] = std::min(1.0f, 1.0f / settings.full_confidence);
-    }
-    return model;
-}
-
-SurfaceMap uncertain(SurfaceMap surface) {
-    std::fill(surface.confidence.pixels.begin(), surface.confidence.pixels.end(), 0.0f);
-    return surface;
-}
-
-void learn(SlamState& state, const RgbdFrame& frame, Observed observed,
+void learn(SlamState& state, const RgbdFrame& frame, ObservedFrame observed,
            const Pose& world_from_camera, const SlamSettings& settings) {
     state.before_last.reset();
     if (state.model && state.frames_lost == 0) state.before_last = state.model->world_from_camera;
@@ -107,36 +57,7 @@ void learn(SlamState& state, const RgbdFrame& frame, Observed observed,
     state.frames_lost = 0;
 }
 
-bool same_size(const Lens& a, const Lens& b) { return a.width == b.width && a.height == b.height; }
-
-/// What the frame itself saw, at full size.
-SurfaceMap own_surface(const SlamState& state, const RgbdFrame& frame,
-                       const SlamSettings& settings) {
-    if (same_size(state.seen->lens, frame.lens)) return *state.seen;
-    return surface_from_depth(filter_depth(frame.depth, settings.depth), frame.lens,
-                              state.seen->world_from_camera, settings.depth);
-}
-
 }  // namespace
-
-SlamSettings accurate_slam() { return {}; }
-
-SlamSettings fast_slam() {
-    SlamSettings settings;
-    settings.half_resolution = true;
-    settings.depth.smoothing_radius = 1;
-    settings.fusion.voxel_size = 0.012f;
-    settings.fusion.truncation = 0.048f;
-    settings.track.iterations = 6;
-    return settings;
-}
-
-void validate(const SlamSettings& settings) {
-    validate(settings.depth);
-    validate(settings.fusion);
-    validate(settings.raycast);
-    validate(settings.track);
-}
 
 SlamState start_slam(const SlamSettings& settings) {
     validate(settings);
@@ -147,8 +68,7 @@ SlamState start_slam(const SlamSettings& settings) {
 
 TrackResult track_and_fuse(SlamState& state, const RgbdFrame& frame, const SlamSettings& settings,
                            const std::optional<Pose>& known_world_from_camera) {
-    require_sizes(frame);
-    Observed observed = observe(frame, settings);
+    ObservedFrame observed = observe_frame(frame, settings);
     TrackResult tracking = known_world_from_camera ? certain(*known_world_from_camera)
                                                    : locate(state, frame, observed, settings);
     if (tracking.status == TrackingStatus::lost) {
@@ -162,15 +82,10 @@ TrackResult track_and_fuse(SlamState& state, const RgbdFrame& frame, const SlamS
 SlamStep advance_slam(SlamState& state, const RgbdFrame& frame, const SlamSettings& settings,
                       const std::optional<Pose>& known_world_from_camera) {
     SlamStep step{track_and_fuse(state, frame, settings, known_world_from_camera), {}};
-    const Pose& pose = step.tracking.world_from_camera;
-    const bool seen = state.model && same_size(state.model->lens, frame.lens) &&
-                      step.tracking.status != TrackingStatus::lost;
-    step.surface =
-        seen ? *state.model : raycast_volume(state.volume, frame.lens, pose, settings.raycast);
-    step.surface = step.tracking.status == TrackingStatus::lost
-                       ? uncertain(std::move(step.surface))
-                       : completed(std::move(step.surface), own_surface(state, frame, settings),
-                                   settings.raycast);
+    const bool lost = step.tracking.status == TrackingStatus::lost;
+    const bool at_full_size = state.model && state.model->lens.width == frame.lens.width;
+    step.surface = !lost && at_full_size ? completed(*state.model, *state.seen, settings.raycast)
+                                         : see_model(state.volume, frame, step.tracking, settings);
     return step;
 }
 

@@ -3,31 +3,13 @@
 
 #include "recordings/base/rgbd_frame.h"
 #include "recordings/base/surface_map.h"
-#include "slam/depth/filter_depth.h"
 #include "slam/mapping/keyframes.h"
-#include "slam/track/track_frame.h"
-#include "slam/volume/fuse_depth.h"
-#include "slam/volume/raycast_volume.h"
+#include "slam/mapping/slam_settings.h"
+#include "slam/volume/voxel_volume.h"
 
 #include <optional>
 
 namespace inlay {
-
-struct SlamSettings {
-    DepthSettings depth;
-    FusionSettings fusion;
-    RaycastSettings raycast;
-    TrackSettings track;
-    bool half_resolution = false;  // track and fuse every second pixel
-};
-
-/// Settings for --slam accurate (the defaults of every stage) and fast (larger voxels, fewer
-/// iterations).
-SlamSettings accurate_slam();
-SlamSettings fast_slam();
-
-/// Throws Error that names the setting which is out of range.
-void validate(const SlamSettings& settings);
 
 /// Everything that survives from frame to frame.
 struct SlamState {

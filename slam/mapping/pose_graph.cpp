@@ -151,10 +151,9 @@ std::array<double, 2> optimize_poses(std::vector<Pose>& world_from_camera,
     const double before = rms_of(squares);
     for (int i = 0; i < settings.iterations; ++i) {
         // At first a chain of motions agrees with itself, and only what closes it deviates.
-        const double half_weight =
-            i < plain_iterations
-                ? std::numeric_limits<double>::infinity()
-                : settings.outlier * settings.outlier * std::max(median_of(squares), 1e-30);
+        const double half_weight = i < plain_iterations ? std::numeric_limits<double>::infinity()
+                                                        : settings.outlier * settings.outlier *
+                                                              std::max(median_of(squares), 1e-30);
         NormalEquations equations(world_from_camera.size());
         for (std::size_t k = 0; k < edges.size(); ++k)
             equations.add(edges[k], 1 / (1 + squares[k] / half_weight), world_from_camera);

@@ -1,0 +1,106 @@
+#include "slam/mapping/find_loops.h"
+
+#include "slam/track/icp_system.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace inlay {
+namespace {
+
+constexpr int width = 160;             // px, about
+constexpr int levels = 2;              // of a view's pyramid
+constexpr int apart = 5;               // views between two that may close a loop
+constexpr float least_overlap = 0.3f;  // of a view with the other
+constexpr float least_inliers = 0.6f;  // share of the overlap
+constexpr PairingSettings wide{0.3f, 0.8f, 1};
+constexpr PairingSettings close{0.04f, 0.8f, 1};
+
+/// Every `stride`-th pixel.
+SurfaceMap thinned(const SurfaceMap& map, int stride) {
+    Lens lens = map.lens;
+    lens.width /= stride;
+    lens.height /= stride;
+    lens.fx /= stride, lens.fy /= stride;
+    lens.cx /= stride, lens.cy /= stride;
+    SurfaceMap result = empty_surface_map(lens, map.world_from_camera);
+    for (int y = 0; y < lens.height; ++y) {
+        for (int x = 0; x < lens.width; ++x) {
+            result.position(x, y) = map.position(x * stride, y * stride);
+            result.normal(x, y) = map.normal(x * stride, y * stride);
+            result.confidence(x, y) = map.confidence(x * stride, y * stride);
+        }
+    }
+    return result;
+}
+
+/// The edge of a motion that ICP found, by what the pairs at its end know, per pair.
+PoseEdge edge_of(int from, int to, const Pose& motion, std::span<const LoopView> views) {
+    const SurfaceMap& model = views[std::size_t(from)].pyramid.front();
+    const SurfaceMap& observed = views[std::size_t(to)].pyramid.front();
+    const IcpSystem system = icp_system(observed, model, motion, close);
+    PoseEdge edge{from, to, motion, system.a};
+    for (double& entry : edge.information)
+        entry /= std::max(1, system.inliers);
+    for (const std::size_t diagonal : {0, 6, 11, 15, 18, 20})
+        edge.information[diagonal] += 1;  // views without pairs still know the motion somehow
+    return edge;
+}
+
+std::optional<PoseEdge> try_loop(int from, int to, std::span<const LoopView> views,
+                                 const TrackSettings& settings) {
+    const LoopView &a = views[std::size_t(from)], &b = views[std::size_t(to)];
+    const Pose expected = inverse(a.world_from_camera) * b.world_from_camera;
+    const IcpSystem before = icp_system(b.pyramid.back(), a.pyramid.front(), expected, wide);
+    if (float(before.pairs) < least_overlap * float(before.observed) || before.pairs == 0)
+        return std::nullopt;
+    SurfaceMap model = a.pyramid.front();
+    model.world_from_camera = a.world_from_camera;
+    const Pose start = b.world_from_camera;
+    const TrackResult found = track_frame(b.pyramid, model, std::span(&start, 1), settings);
+    if (found.status != TrackingStatus::tracked || found.overlap < least_overlap ||
+        found.inlier_share < least_inliers) {
+        return std::nullopt;
+    }
+    return edge_of(from, to, inverse(a.world_from_camera) * found.world_from_camera, views);
+}
+
+}  // namespace
+
+LoopView make_loop_view(const SurfaceMap& seen, const Pose& world_from_camera) {
+    LoopView view{{thinned(seen, std::max(1, seen.lens.width / width))}, world_from_camera};
+    for (int level = 1; level < levels; ++level)
+        view.pyramid.push_back(thinned(view.pyramid.back(), 2));
+    return view;
+}
+
+std::vector<PoseEdge> chain_edges(std::span<const LoopView> views) {
+    std::vector<PoseEdge> edges;
+    for (std::size_t i = 1; i < views.size(); ++i) {
+        const Pose motion = inverse(views[i - 1].world_from_camera) * views[i].world_from_camera;
+        edges.push_back(edge_of(int(i) - 1, int(i), motion, views));
+    }
+    return edges;
+}
+
+std::vector<PoseEdge> find_loops(std::span<const LoopView> views, const TrackSettings& settings) {
+    TrackSettings loop = settings;
+    loop.levels = levels;
+    std::vector<PoseEdge> edges;
+    for (int to = apart; to < int(views.size()); ++to) {
+        for (int from = 0; from + apart <= to; ++from) {
+            if (auto edge = try_loop(from, to, views, loop)) edges.push_back(*edge);
+        }
+    }
+    return edges;
+}
+
+LoopError loop_error(const PoseEdge& edge, std::span<const LoopView> views) {
+    const Pose motion = inverse(views[std::size_t(edge.from)].world_from_camera) *
+                        views[std::size_t(edge.to)].world_from_camera;
+    const Pose off = motion * inverse(edge.motion);
+    return {glm::length(off.translation), rotation_angle(Pose{}, off)};
+}
+
+}  // namespace inlay

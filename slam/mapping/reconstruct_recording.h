@@ -1,0 +1,55 @@
+// A whole recording -> where the camera was in every frame, and the model of all of them.
+#pragma once
+
+#include "recordings/base/rgbd_frame.h"
+#include "slam/mapping/pose_graph.h"
+#include "slam/mapping/slam_settings.h"
+#include "slam/volume/voxel_volume.h"
+
+#include <functional>
+#include <vector>
+
+namespace inlay {
+
+/// A recording's frames, in order; each is asked for up to three times.
+struct FrameSource {
+    int count = 0;
+    std::function<RgbdFrame(int)> load;  // 0 .. count - 1
+};
+
+/// What became of one frame.
+struct ReconstructedFrame {
+    int number = 0;   // the recording's own
+    double time = 0;  // s
+    TrackResult tracking;
+};
+
+struct Reconstruction {
+    std::vector<ReconstructedFrame> frames;
+    std::vector<int> keyframes;   // positions in `frames`
+    std::vector<PoseEdge> loops;  // between positions in `keyframes`, where drift was taken out
+    VoxelVolume volume;
+    bool complete = false;  // false: stopped before its end
+};
+
+/// Where poses come from.
+enum class PoseSource { tracked, recorded };
+
+/// Is told how many frames of a pass are done; false stops the work.
+using GoOn = std::function<bool(int frames)>;
+
+/// Tracks the recording from its first frame, as track_and_fuse() does. If the settings look ahead,
+/// drift is taken out where views meet again (Gauss-Newton on keyframes), the model is fused anew
+/// from the frames at full resolution and corrected poses, and every frame is tracked once more
+/// against that: so early frames see what later ones found out, and lost ones may be found. With
+/// recorded poses, frames that have none are lost. Same bytes for any number of threads.
+/// Throws Error as track_and_fuse().
+Reconstruction reconstruct_recording(const FrameSource& source, const SlamSettings& settings,
+                                     PoseSource poses, const GoOn& go_on);
+
+/// The model of frames whose poses are known: those that are not lost, fused at full resolution.
+/// False if it was stopped.
+bool fuse_recording(Reconstruction& result, const FrameSource& source, const SlamSettings& settings,
+                    const GoOn& go_on);
+
+}  // namespace inlay

@@ -1,0 +1,40 @@
+#include "slam/mapping/slam_settings.h"
+
+#include <algorithm>
+
+namespace inlay {
+
+SlamSettings accurate_slam() { return {}; }
+
+SlamSettings fast_slam() {
+    SlamSettings settings;
+    settings.look_ahead = false;
+    settings.half_resolution = true;
+    settings.depth.smoothing_radius = 1;
+    settings.fusion.voxel_size = 0.012f;
+    settings.fusion.truncation = 0.048f;
+    settings.track.iterations = 6;
+    return settings;
+}
+
+SlamSettings first_pass_of(const SlamSettings& settings) {
+    const SlamSettings fast = fast_slam();
+    SlamSettings first = settings;
+    first.look_ahead = false;
+    first.half_resolution = true;
+    first.depth.smoothing_radius =
+        std::min(settings.depth.smoothing_radius, fast.depth.smoothing_radius);
+    first.fusion.voxel_size *= 1.5f;
+    first.fusion.truncation *= 1.5f;
+    first.track.iterations = std::min(settings.track.iterations, fast.track.iterations);
+    return first;
+}
+
+void validate(const SlamSettings& settings) {
+    validate(settings.depth);
+    validate(settings.fusion);
+    validate(settings.raycast);
+    validate(settings.track);
+}
+
+}  // namespace inlay

@@ -1,0 +1,31 @@
+// How tracking and fusing go: a struct for each stage.
+#pragma once
+
+#include "slam/depth/filter_depth.h"
+#include "slam/track/track_frame.h"
+#include "slam/volume/fuse_depth.h"
+#include "slam/volume/raycast_volume.h"
+
+namespace inlay {
+
+struct SlamSettings {
+    DepthSettings depth;
+    FusionSettings fusion;
+    RaycastSettings raycast;
+    TrackSettings track;
+    bool half_resolution = false;  // track and fuse every second pixel
+    bool look_ahead = true;        // reconstruct_recording() goes over the recording again
+};
+
+/// Settings for --slam accurate (the defaults of every stage) and fast (half resolution, larger
+/// voxels, fewer iterations, one pass).
+SlamSettings accurate_slam();
+SlamSettings fast_slam();
+
+/// Of the first pass of a reconstruction that looks ahead: as fast, with voxels of the same order.
+SlamSettings first_pass_of(const SlamSettings& settings);
+
+/// Throws Error that names the setting which is out of range.
+void validate(const SlamSettings& settings);
+
+}  // namespace inlay
