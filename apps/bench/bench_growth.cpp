@@ -47,7 +47,7 @@ Subject open_subject(const std::filesystem::path& folder, int number,
     for (const int n : s.work.recording->info.frames) {
         s.frame = s.work.recording->load(n);
         s.surface = track_frame_of(s.slam, s.frame, s.settings).surface;
-        update_model(s.model, s.slam, seen++, s.settings.geometry);
+        update_model(s.model, s.slam.volume, seen++, s.settings.geometry);
         if (n >= number) break;
     }
     return s;
@@ -75,7 +75,7 @@ View seen_at(const Subject& s, double scale) {
     view.photo = linearise(std::move(color));
     view.real = describe_real_scene(
         raycast_volume(s.slam.volume, lens, s.surface.world_from_camera, s.settings.slam.raycast),
-        view.photo.linear, s.slam, s.model, s.settings);
+        view.photo.linear, s.slam.volume, s.model, s.settings);
     return view;
 }
 

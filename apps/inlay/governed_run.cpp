@@ -3,6 +3,7 @@
 #include "composite/govern/front_cache.h"
 #include "composite/govern/measure_front.h"
 #include "composite/session/stop_watch.h"
+#include "composite/write/cache_folder.h"
 #include "recordings/base/check.h"
 
 #include <spdlog/spdlog.h>
@@ -22,7 +23,7 @@ bool has_goal(const GovernedRun& run) { return run.goal.ms_per_frame || run.goal
 bool chooses(const GovernedRun& run) { return has_goal(run) || !run.choices.empty(); }
 
 void keep(const std::string& key, const PriceFront& front) {
-    const std::filesystem::path folder = front_cache_folder();
+    const std::filesystem::path folder = cache_folder();
     if (folder.empty()) return;
     try {
         keep_front(folder, key, front);
@@ -58,7 +59,7 @@ GovernedRun start_governed(const SamplingSettings& base, const Goal& goal, std::
     run.goal = goal;
     run.price_key = std::move(price_key);
     run.choices = std::move(choices);
-    const std::filesystem::path folder = front_cache_folder();
+    const std::filesystem::path folder = cache_folder();
     if (!has_goal(run) || folder.empty()) return run;
     if (auto front = kept_front(folder, run.price_key))
         run.governor = start_governor(goal, std::move(*front));
@@ -67,7 +68,7 @@ GovernedRun start_governed(const SamplingSettings& base, const Goal& goal, std::
 
 void choose_samples(GovernedRun& run, Session& session, int frame) {
     run.now = std::nullopt;
-    run.extracts = model_is_due(session.model, session.frames_seen, session.settings.geometry);
+    run.extracts = model_is_due(session.model, model_age(session), session.settings.geometry);
     if (!chooses(run)) return;
     const auto known = run.choices.find(frame);
     require(known != run.choices.end() || has_goal(run),

@@ -1,9 +1,9 @@
 // `inlay reconstruct`: where the camera was in every frame, and the room as a mesh.
+#include "composite/session/known_recording.h"
+#include "composite/session/reconstruction_json.h"
 #include "composite/write/atomic_file.h"
-#include "composite/write/frame_report.h"
 #include "recordings/base/check.h"
 #include "recordings/readers/trajectory.h"
-#include "slam/mapping/advance_slam.h"
 #include "slam/mesh/extract_mesh.h"
 #include "slam/mesh/write_ply.h"
 
@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -34,72 +35,74 @@ struct ReconstructOptions {
 };
 
 /// What became of the chosen frames.
-struct Reconstruction {
+struct Chosen {
     Trajectory trajectory;
     std::string status_lines;
     int tracked = 0, weak = 0, lost = 0;
-    TriangleMesh mesh;
+    std::size_t vertices = 0, triangles = 0;
     bool interrupted = false;
 };
 
-/// A lost frame has a status but no pose: one that was never found is not data.
-void note(Reconstruction& result, const RgbdFrame& frame, const TrackResult& tracking) {
-    const bool lost = tracking.status == TrackingStatus::lost;
+/// A lost frame has a pose too, the last one known, so that the file has a line for each frame.
+void note(Chosen& chosen, const ReconstructedFrame& frame) {
     const auto time_ns = std::int64_t(std::llround(frame.time * 1e9));
-    if (!lost) result.trajectory.poses.push_back({time_ns, {tracking.world_from_camera, ""}});
-    const Json line{{"frame", frame.index},
-                    {"time_s", frame.time},
-                    {"status", name_of(tracking.status)},
-                    {"in_poses_txt", !lost},
-                    {"inlier_share", tracking.inlier_share},
-                    {"rms_residual_m", tracking.rms_residual}};
-    result.status_lines += line.dump() + "\n";
-    result.tracked += tracking.status == TrackingStatus::tracked;
-    result.weak += tracking.status == TrackingStatus::weak;
-    result.lost += lost;
+    chosen.trajectory.poses.push_back({time_ns, {frame.tracking.world_from_camera, ""}});
+    chosen.status_lines += status_json(frame).dump() + "\n";
+    chosen.tracked += frame.tracking.status == TrackingStatus::tracked;
+    chosen.weak += frame.tracking.status == TrackingStatus::weak;
+    chosen.lost += frame.tracking.status == TrackingStatus::lost;
 }
 
-/// Tracks from the recording's first frame to the last chosen one, and notes the chosen ones.
-Reconstruction reconstruct(const Recording& recording, const FrameList& chosen,
-                           const SlamSettings& settings, bool quiet) {
-    const int last = select_frames(chosen, recording.info.frames).back();
-    int count = 0;
-    for (const int number : recording.info.frames)
-        count += number <= last;
-    Progress progress("reconstructing", count, quiet);
-    Reconstruction result;
-    SlamState state = start_slam(settings);
-    for (int done = 0; done < count && !result.interrupted; ++done) {
-        const RgbdFrame frame = recording.load(recording.info.frames[std::size_t(done)]);
-        const SlamStep step = advance_slam(state, frame, settings, std::nullopt);
-        if (chosen.contains(frame.index)) note(result, frame, step.tracking);
-        progress.advance_to(done + 1);
-        result.interrupted = interrupted();
-    }
-    result.mesh = extract_mesh(state.volume);
-    return result;
+/// The whole recording; without a look ahead only up to the last chosen frame, since later ones
+/// change nothing.
+Reconstruction reconstruct(const Recording& recording, const FrameList& frames,
+                           const Settings& settings, bool quiet) {
+    FrameSource source = frames_of(recording);
+    const int last = select_frames(frames, recording.info.frames).back();
+    if (!settings.slam.look_ahead)
+        source.count =
+            int(std::upper_bound(recording.info.frames.begin(), recording.info.frames.end(), last) -
+                recording.info.frames.begin());
+    const int passes = settings.slam.look_ahead ? passes_at_most : 1;
+    Progress progress("reconstructing", passes * source.count, quiet);
+    int done = 0;
+    const auto go_on = [&](int) {
+        progress.advance_to(++done);
+        return !interrupted();
+    };
+    if (settings.slam.look_ahead) return *know_recording(recording, settings, go_on);
+    return reconstruct_recording(source, settings.slam, PoseSource::tracked, go_on);
 }
 
-void write_all(const fs::path& folder, const Reconstruction& result) {
-    write_tum_trajectory(folder / "poses.txt", result.trajectory);
-    write_text(folder / "status.jsonl", result.status_lines);
-    write_ply(folder / "mesh.ply", result.mesh);
+Chosen write_all(const fs::path& folder, const Reconstruction& result, const FrameList& frames) {
+    Chosen chosen;
+    for (const ReconstructedFrame& frame : result.frames)
+        if (frames.contains(frame.number)) note(chosen, frame);
+    const TriangleMesh mesh = extract_mesh(result.volume);
+    chosen.vertices = mesh.positions.size();
+    chosen.triangles = mesh.triangles.size();
+    chosen.interrupted = !result.complete;
+    write_tum_trajectory(folder / "poses.txt", chosen.trajectory);
+    write_text(folder / "status.jsonl", chosen.status_lines);
+    write_text(folder / "keyframes.json", keyframes_json(result).dump(2) + "\n");
+    write_ply(folder / "mesh.ply", mesh);
+    return chosen;
 }
 
-void report(const ReconstructOptions& options, const Reconstruction& result) {
+void report(const ReconstructOptions& options, const Chosen& result) {
     if (options.common.json) {
         const Json json{{"out", options.out},
                         {"tracked", result.tracked},
                         {"weak", result.weak},
                         {"lost", result.lost},
-                        {"vertices", result.mesh.positions.size()},
-                        {"triangles", result.mesh.triangles.size()},
+                        {"vertices", result.vertices},
+                        {"triangles", result.triangles},
                         {"interrupted", result.interrupted}};
         std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
         return;
     }
     spdlog::info("{} frames tracked, {} weak, {} lost; {} triangles; {}", result.tracked,
-                 result.weak, result.lost, result.mesh.triangles.size(), options.out);
+                 result.weak, result.lost, result.triangles, options.out);
 }
 
 int run(const ReconstructOptions& options) {
@@ -109,9 +112,10 @@ int run(const ReconstructOptions& options) {
     select_frames(chosen, recording.info.frames);
     make_folder(options.out);
     catch_interrupts();
-    const SlamSettings settings = options.slam == "fast" ? fast_slam() : accurate_slam();
-    const Reconstruction result = reconstruct(recording, chosen, settings, options.common.quiet);
-    write_all(options.out, result);
+    Settings settings;
+    if (options.slam == "fast") settings.slam = fast_slam();
+    const Chosen result = write_all(
+        options.out, reconstruct(recording, chosen, settings, options.common.quiet), chosen);
     report(options, result);
     return int(result.interrupted ? ExitCode::interrupted : ExitCode::done);
 }
@@ -123,11 +127,16 @@ std::function<int()> add_reconstruct(CLI::App& subcommand) {
     add_recording_options(subcommand, options->recording);
     add_common_options(subcommand, options->common);
     subcommand
-        .add_option("--out", options->out,
-                    "Folder for poses.txt (TUM form; lost frames have no line), status.jsonl (a "
-                    "line for every frame) and mesh.ply")
+        .add_option(
+            "--out", options->out,
+            "Folder for poses.txt (TUM form, a line for every frame; a lost one has the last "
+            "pose known), status.jsonl (likewise: status, and why), keyframes.json and "
+            "mesh.ply")
         ->required();
-    subcommand.add_option("--slam", options->slam, "Voxels and iterations: fast or accurate")
+    subcommand
+        .add_option(
+            "--slam", options->slam,
+            "fast: one pass at half resolution; accurate: looks ahead, closes loops, tracks twice")
         ->check(CLI::IsMember({"fast", "accurate"}))
         ->capture_default_str();
     return [options] { return run(*options); };

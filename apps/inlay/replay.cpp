@@ -1,5 +1,6 @@
 // `inlay replay`: the main job, a recording with virtual objects in it.
 #include "composite/plan/explain.h"
+#include "composite/session/known_recording.h"
 #include "composite/session/named_layers.h"
 #include "composite/session/prepare_scene.h"
 #include "composite/session/stop_watch.h"
@@ -131,7 +132,9 @@ bool play(Session& session, const Recording& recording, const std::vector<int>& 
         if (!output.finished.contains(frame)) open.push_back(frame);
     const FilterSettings& filter = session.settings.filter;
     const bool temporal = filter.enabled && filter.temporal;
-    const auto tasks = plan_frames(recording.info.frames, open, temporal);
+    std::vector<FrameTask> tasks = plan_frames(recording.info.frames, open, temporal);
+    if (session.known)
+        std::erase_if(tasks, [](const FrameTask& t) { return t.work == FrameWork::track; });
     Progress progress("frames", int(tasks.size()), o.common.quiet);
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         if (interrupted()) return false;
@@ -203,12 +206,29 @@ void add_choices_before(const ReplayOptions& o, const RecordingInfo& recording,
         if (report.governor) run.choices[report.frame] = report.governor->samples;
 }
 
+/// The recording, reconstructed if the settings look ahead; empty if that was interrupted.
+std::optional<std::shared_ptr<const Reconstruction>> known_of(const Recording& recording,
+                                                              const Settings& settings,
+                                                              bool quiet) {
+    if (!settings.slam.look_ahead) return nullptr;
+    Progress progress("reconstructing", passes_at_most * int(recording.info.frames.size()), quiet);
+    int done = 0;
+    auto known = know_recording(recording, settings, [&](int) {
+        progress.advance_to(++done);
+        return !interrupted();
+    });
+    if (!known->complete) return std::nullopt;
+    return known;
+}
+
 /// Says what is odd about the scene.
-Session session_of(const SceneFile& file, const Recording& recording, const Settings& settings) {
-    PreparedScene prepared = prepare_scene(file, recording, settings);
+Session session_of(const SceneFile& file, const Recording& recording, const Settings& settings,
+                   std::shared_ptr<const Reconstruction> known) {
+    PreparedScene prepared = prepare_scene(file, recording, settings, known.get());
     for (const std::string& warning : prepared.warnings)
         spdlog::warn("{}", warning);
-    return start_session(settings, std::move(prepared.scene), std::move(prepared.environment));
+    return start_session(settings, std::move(prepared.scene), std::move(prepared.environment),
+                         std::move(known));
 }
 
 int run(const ReplayOptions& o) {
@@ -234,14 +254,16 @@ int run(const ReplayOptions& o) {
         load_scene_file(o.scene, {o.render.assets.begin(), o.render.assets.end()},
                         o.explain ? SceneUse::explain : SceneUse::simulate);
     if (settings.use_recorded_poses) warn_of_missing_poses(recording.info, frames);
-    Session session = session_of(file, recording, settings);
+    catch_interrupts();
+    auto known = known_of(recording, settings, o.common.quiet);
+    if (!known) return int(ExitCode::interrupted);
+    Session session = session_of(file, recording, settings, std::move(*known));
     session.settings.skip &= o.render.layers.empty();  // whoever asks for layers wants all of them
     const EffectPlan plan = plan_of(session, recording.info, file.requests);
     if (o.explain) {
         std::cout << explain(plan);
         return 0;
     }
-    catch_interrupts();
     RunDescription description = description_of(o, file, settings, plan);
     add_choices_before(o, recording.info, description);
     ReplayOutput output = open_output(o.out, recording.info, description, o.resume);
@@ -274,7 +296,10 @@ std::function<int()> add_replay(CLI::App& subcommand) {
     add_govern_options(subcommand, o->govern);
     subcommand.add_option("--scene", o->scene, "the scene file: objects and light");
     subcommand.add_option("--out", o->out, "the folder to write");
-    subcommand.add_option("--slam", o->slam, "voxels and iterations: fast or accurate")
+    subcommand
+        .add_option("--slam", o->slam,
+                    "fast: a model that grows from frame to frame; accurate: the "
+                    "whole recording is reconstructed first, once, and kept for later runs")
         ->check(CLI::IsMember({"fast", "accurate"}))
         ->capture_default_str();
     subcommand

@@ -18,7 +18,7 @@ EmbreeScene place_room(const Work& work, double time) {
     return EmbreeSceneCache().place(work.scene, time, /*real=*/true);
 }
 
-TrackedFrame kept(const RgbdFrame& frame, SlamStep step, const SlamState& slam,
+TrackedFrame kept(const RgbdFrame& frame, SlamStep step, const VoxelVolume& volume,
                   const TracedModel& model, const Settings& settings) {
     TrackedFrame result;
     result.frame = frame.index;
@@ -28,8 +28,8 @@ TrackedFrame kept(const RgbdFrame& frame, SlamStep step, const SlamState& slam,
     result.world_from_camera = step.surface.world_from_camera;
     result.photo = std::make_shared<const Photo>(linearise(frame.color));
     if (step.tracking.status == TrackingStatus::lost) return result;  // there is nothing to trace
-    result.room = std::make_shared<const RealScene>(
-        describe_real_scene(std::move(step.surface), result.photo->linear, slam, model, settings));
+    result.room = std::make_shared<const RealScene>(describe_real_scene(
+        std::move(step.surface), result.photo->linear, volume, model, settings));
     result.geometry = result.room->geometry;
     result.depth_tolerance = settings.trace.depth_tolerance;
     return result;
@@ -41,29 +41,48 @@ void stand_in(const Work& work, TrackedFrame& frame) {
     frame.depth_tolerance = 0;
 }
 
+/// The work's recording, with the sensor's depth or the true one.
+Recording with_depth(const Work& work, SensorDepth depth) {
+    Recording recording = *work.recording;
+    if (depth == SensorDepth::recorded) return recording;
+    recording.load = [&work](int number) {
+        RgbdFrame frame = work.recording->load(number);
+        const RecordingInfo& info = work.recording->info;
+        const auto place = std::lower_bound(info.frames.begin(), info.frames.end(), number);
+        const auto& pose = info.world_from_camera[std::size_t(place - info.frames.begin())];
+        require(pose.has_value(), "exact depth needs a pose of every frame");
+        frame.depth = trace_depth(place_room(work, frame.time), frame.lens, *pose);
+        return frame;
+    };
+    return recording;
+}
+
 }  // namespace
 
 std::vector<TrackedFrame> track_frames(const Work& work, const std::vector<int>& frames,
                                        const Settings& settings, SensorDepth depth) {
+    const Recording seen = with_depth(work, depth);
+    StopWatch watch;
+    const auto known = depth == SensorDepth::recorded ? know_recording(seen, settings)
+                                                      : reconstruct_afresh(seen, settings);
+    const double known_ms = watch.lap() / double(seen.info.frames.size());
     SlamState slam = start_slam(settings.slam);
     TracedModel model;
     std::vector<TrackedFrame> result;
-    int seen = 0;
-    const RecordingInfo& info = work.recording->info;
-    for (std::size_t i = 0; i < info.frames.size() && result.size() < frames.size(); ++i) {
-        RgbdFrame frame = work.recording->load(info.frames[i]);
-        if (depth == SensorDepth::exact) {
-            require(info.world_from_camera[i].has_value(),
-                    "exact depth needs a pose of every frame");
-            frame.depth =
-                trace_depth(place_room(work, frame.time), frame.lens, *info.world_from_camera[i]);
-        }
-        StopWatch watch;
-        SlamStep step = track_frame_of(slam, frame, settings);
-        update_model(model, slam, seen++, settings.geometry);
-        const double ms = watch.lap();
-        if (std::find(frames.begin(), frames.end(), frame.index) == frames.end()) continue;
-        result.push_back(kept(frame, std::move(step), slam, model, settings));
+    int count = 0;
+    for (std::size_t i = 0; i < seen.info.frames.size() && result.size() < frames.size(); ++i) {
+        const bool wanted =
+            std::find(frames.begin(), frames.end(), seen.info.frames[i]) != frames.end();
+        if (known && !wanted) continue;
+        const RgbdFrame frame = seen.load(seen.info.frames[i]);
+        watch.lap();
+        SlamStep step =
+            known ? known_frame_of(*known, frame, settings) : track_frame_of(slam, frame, settings);
+        const VoxelVolume& volume = known ? known->volume : slam.volume;
+        update_model(model, volume, known ? 0 : count++, settings.geometry);
+        const double ms = watch.lap() + known_ms;
+        if (!wanted) continue;
+        result.push_back(kept(frame, std::move(step), volume, model, settings));
         result.back().slam_ms = ms;
     }
     return result;

@@ -1,6 +1,7 @@
 #include "composite/accuracy/work.h"
 
 #include "composite/accuracy/work_fingerprint.h"
+#include "composite/session/known_recording.h"
 #include "recordings/base/check.h"
 #include "recordings/environment/exr_image.h"
 #include "render/filter/environment_bandwidth.h"
@@ -75,7 +76,8 @@ Work recorded_work(const fs::path& path, const Settings& settings, const fs::pat
             ExitCode::input_missing);
     const SceneFile file = load_scene_file(scene);
     work.scene_files = files_of(scene, file);
-    PreparedScene prepared = prepare_scene(file, *work.recording, settings);
+    const auto known = know_recording(*work.recording, settings);
+    PreparedScene prepared = prepare_scene(file, *work.recording, settings, known.get());
     work.scene = std::move(prepared.scene);
     work.warnings = std::move(prepared.warnings);
     work.knows_room = any_real(work.scene);

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <cstdlib>
 #include <exception>
 #include <system_error>
 #include <utility>
@@ -35,14 +34,6 @@ bool usable(const PriceFront& front) {
 }
 
 }  // namespace
-
-fs::path front_cache_folder() {
-    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache)
-        return fs::path(cache) / "inlay";
-    if (const char* home = std::getenv("HOME"); home && *home)
-        return fs::path(home) / ".cache" / "inlay";
-    return {};
-}
 
 std::optional<PriceFront> kept_front(const fs::path& folder, const std::string& key) {
     const fs::path file = file_of(folder, key);

@@ -9,9 +9,6 @@
 
 namespace inlay {
 
-/// $XDG_CACHE_HOME/inlay, or ~/.cache/inlay; empty where neither variable is set.
-std::filesystem::path front_cache_folder();
-
 /// The front that was kept under `key`: a text that names all that times and errors depend on.
 /// Nothing where there is none, or its file cannot be understood.
 std::optional<PriceFront> kept_front(const std::filesystem::path& folder, const std::string& key);

@@ -11,8 +11,10 @@
 namespace inlay {
 namespace {
 
-/// The model's surface as frame `number` sees it, after tracking from the recording's first frame.
-SurfaceMap surface_of_frame(const Recording& recording, const Settings& settings, int number) {
+/// The model's surface as frame `number` sees it: the finished model's, or that of the frames up to
+/// there.
+SurfaceMap surface_of_frame(const Recording& recording, const Settings& settings,
+                            const Reconstruction* known, int number) {
     const std::vector<int>& frames = recording.info.frames;
     require(std::find(frames.begin(), frames.end(), number) != frames.end(),
             "scene: an object is placed in frame " + std::to_string(number) +
@@ -20,8 +22,9 @@ SurfaceMap surface_of_frame(const Recording& recording, const Settings& settings
                 std::to_string(frames.front()) + " to " + std::to_string(frames.back()));
     SlamState slam = start_slam(settings.slam);
     SlamStep step;
+    if (known) step = known_frame_of(*known, recording.load(number), settings);
     for (const int frame : frames) {
-        if (frame > number) break;
+        if (known || frame > number) break;
         step = track_frame_of(slam, recording.load(frame), settings);
     }
     require(step.tracking.status != TrackingStatus::lost,
@@ -57,9 +60,9 @@ std::string replaced_texels_text(const LoadedEnvironment& environment) {
 }
 
 PreparedScene prepare_scene(const SceneFile& file, const Recording& recording,
-                            const Settings& settings) {
+                            const Settings& settings, const Reconstruction* known) {
     const auto surface_of = [&](int number) {
-        return surface_of_frame(recording, settings, number);
+        return surface_of_frame(recording, settings, known, number);
     };
     PreparedScene prepared;
     prepared.warnings = file.warnings;

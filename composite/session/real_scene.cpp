@@ -4,6 +4,7 @@
 #include "render/trace/map_primary.h"
 #include "render/trace/screen_real_geometry.h"
 #include "slam/depth/smooth_normals.h"
+#include "slam/mapping/see_model.h"
 #include "slam/mesh/extract_mesh.h"
 
 #include <bit>
@@ -26,13 +27,13 @@ Image<Rgb> undistorted(const Image<Rgb>& photo, const Lens& lens) {
 }
 
 /// Rays are straight in the image of a pinhole only: a distorted lens takes a second map.
-void march_in_image(RealScene& real, const SlamState& slam, const Settings& settings) {
+void march_in_image(RealScene& real, const VoxelVolume& volume, const Settings& settings) {
     real.traced_surface = real.surface;
     real.traced_photo = real.photo;
     const Lens& lens = real.surface->lens;
     if (distorted(lens)) {
         real.traced_surface = std::make_shared<const SurfaceMap>(raycast_volume(
-            slam.volume, pinhole(lens), real.surface->world_from_camera, settings.slam.raycast));
+            volume, pinhole(lens), real.surface->world_from_camera, settings.slam.raycast));
         real.traced_photo = std::make_shared<const Image<Rgb>>(undistorted(*real.photo, lens));
     }
     const ScreenTracerSettings screen = screen_settings(settings.geometry);
@@ -66,6 +67,14 @@ SlamStep track_frame_of(SlamState& slam, const RgbdFrame& frame, const Settings&
     return step;
 }
 
+SlamStep known_frame_of(const Reconstruction& known, const RgbdFrame& frame,
+                        const Settings& settings) {
+    SlamStep step{tracking_of(known, frame.index), {}};
+    step.surface = see_model(known.volume, frame, step.tracking, settings.slam);
+    step.surface.normal = smooth_normals(step.surface);
+    return step;
+}
+
 int model_due(int frames_seen, int interval) {
     if (frames_seen >= interval) return frames_seen - frames_seen % interval;
     return frames_seen == 0 ? 0 : int(std::bit_floor(unsigned(frames_seen)));
@@ -77,15 +86,15 @@ bool model_is_due(const TracedModel& model, int frames_seen, const GeometrySetti
            model.mesh->parts().empty();
 }
 
-void update_model(TracedModel& model, const SlamState& slam, int frames_seen,
+void update_model(TracedModel& model, const VoxelVolume& volume, int frames_seen,
                   const GeometrySettings& settings) {
     if (!model_is_due(model, frames_seen, settings)) return;
-    auto mesh = std::make_shared<const TriangleMesh>(extract_mesh(slam.volume));
+    auto mesh = std::make_shared<const TriangleMesh>(extract_mesh(volume));
     model.mesh = std::make_shared<const EmbreeScene>(model.cache.place(std::move(mesh)));
     model.frame = model_due(frames_seen, settings.model_interval);
 }
 
-RealScene describe_real_scene(SurfaceMap surface, Image<Rgb> photo, const SlamState& slam,
+RealScene describe_real_scene(SurfaceMap surface, Image<Rgb> photo, const VoxelVolume& volume,
                               const TracedModel& model, const Settings& settings) {
     RealScene real;
     real.surface = std::make_shared<const SurfaceMap>(std::move(surface));
@@ -93,7 +102,7 @@ RealScene describe_real_scene(SurfaceMap surface, Image<Rgb> photo, const SlamSt
     const PhotographedSurface seen{*real.surface, *real.photo};
     const GeometrySettings& geometry = settings.geometry;
     if (geometry.kind == RealGeometryKind::screen) {
-        march_in_image(real, slam, settings);
+        march_in_image(real, volume, settings);
         return real;
     }
     if (geometry.kind == RealGeometryKind::model) {

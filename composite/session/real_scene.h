@@ -1,6 +1,7 @@
 // RealScene: the real surfaces of one frame, ready to be traced.
 #pragma once
 
+#include "composite/session/known_recording.h"
 #include "composite/session/settings.h"
 #include "recordings/base/surface_map.h"
 #include "render/trace/embree_scene.h"
@@ -10,9 +11,14 @@
 
 namespace inlay {
 
-/// Tracks one frame, fuses it and raycasts the model. With recorded poses nothing is tracked, and a
-/// frame that has none is lost: it has no surface and leaves the model as it is.
+/// Tracks one frame, fuses it and raycasts the model, without a look ahead. With recorded poses
+/// nothing is tracked, and a frame that has none is lost: it has no surface and leaves the model as
+/// it is.
 SlamStep track_frame_of(SlamState& slam, const RgbdFrame& frame, const Settings& settings);
+
+/// What the finished model of a recording shows in a frame.
+SlamStep known_frame_of(const Reconstruction& known, const RgbdFrame& frame,
+                        const Settings& settings);
 
 /// Keeps what its RealGeometry refers to; movable, since all of it lies behind pointers.
 struct RealScene {
@@ -40,12 +46,12 @@ bool model_is_due(const TracedModel& model, int frames_seen, const GeometrySetti
 
 /// Extracts and prepares the model if the settings ask for it and it is due. `frames_seen` counts
 /// the frames since the recording's first, whether or not they were composited.
-void update_model(TracedModel& model, const SlamState& slam, int frames_seen,
+void update_model(TracedModel& model, const VoxelVolume& volume, int frames_seen,
                   const GeometrySettings& settings);
 
-/// `photo` has the surface map's size. `slam` gives the surface that an undistorted lens would see,
-/// which the screen tracer needs; `model` the mesh for RealGeometryKind::model.
-RealScene describe_real_scene(SurfaceMap surface, Image<Rgb> photo, const SlamState& slam,
+/// `photo` has the surface map's size. `volume` gives the surface that an undistorted lens would
+/// see, which the screen tracer needs; `model` the mesh for RealGeometryKind::model.
+RealScene describe_real_scene(SurfaceMap surface, Image<Rgb> photo, const VoxelVolume& volume,
                               const TracedModel& model, const Settings& settings);
 
 }  // namespace inlay

@@ -20,9 +20,14 @@ LightDemand demand_of(const Settings& settings, const NoisyLayers* previous) {
     };
 }
 
+const VoxelVolume& volume_of(const Session& session) {
+    return session.known ? session.known->volume : session.slam.volume;
+}
+
 }  // namespace
 
-Session start_session(const Settings& settings, VirtualScene scene, EnvironmentMap environment) {
+Session start_session(const Settings& settings, VirtualScene scene, EnvironmentMap environment,
+                      std::shared_ptr<const Reconstruction> known) {
     validate(settings);
     Session session;
     session.settings = settings;
@@ -33,6 +38,7 @@ Session start_session(const Settings& settings, VirtualScene scene, EnvironmentM
     session.environment = make_environment_sampler(std::move(environment));
     session.no_light = no_light();
     session.slam = start_slam(settings.slam);
+    session.known = std::move(known);
     return session;
 }
 
@@ -53,9 +59,11 @@ OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work) {
     OutputFrame out;
     StopWatch watch;
 
-    SlamStep slam = track_frame_of(session.slam, frame, settings);
+    SlamStep slam = session.known ? known_frame_of(*session.known, frame, settings)
+                                  : track_frame_of(session.slam, frame, settings);
     out.tracking = slam.tracking;
-    update_model(session.model, session.slam, session.frames_seen++, settings.geometry);
+    update_model(session.model, volume_of(session), model_age(session), settings.geometry);
+    ++session.frames_seen;
     out.ms.slam = watch.lap();
     const std::shared_ptr<const NoisyLayers> previous = std::exchange(session.previous, nullptr);
     if (work == FrameWork::track) return out;
@@ -72,7 +80,7 @@ OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work) {
 
     if (out.plan.has("environment_indirect")) {
         out.real = std::make_shared<const RealScene>(describe_real_scene(
-            std::move(slam.surface), photo.linear, session.slam, session.model, settings));
+            std::move(slam.surface), photo.linear, volume_of(session), session.model, settings));
         TwoModeResult sampled = sample(session, *out.real, frame, out.plan, settings.trace,
                                        demand_of(settings, previous.get()));
         out.rays = sampled.rays;

@@ -22,7 +22,8 @@ struct Session {
     EnvironmentSampler no_light;       // in its place where the plan has no direct light
     double environment_bandwidth = 0;  // B_e, 1/rad; 0 without the filter
 
-    SlamState slam;
+    std::shared_ptr<const Reconstruction> known;  // of the recording; null: tracked as frames come
+    SlamState slam;                               // without it
     TracedModel model;
     EmbreeSceneCache virtual_structures;
     std::shared_ptr<const NoisyLayers> previous;  // of the frame before, if it was sampled
@@ -30,8 +31,14 @@ struct Session {
     int frames_seen = 0;
 };
 
-/// Throws Error for settings out of range or an environment that cannot be sampled.
-Session start_session(const Settings& settings, VirtualScene scene, EnvironmentMap environment);
+/// With `known`, frames are composited on the finished model; without it, on the model that the
+/// frames before have made. Throws Error for settings out of range or an environment that cannot be
+/// sampled.
+Session start_session(const Settings& settings, VirtualScene scene, EnvironmentMap environment,
+                      std::shared_ptr<const Reconstruction> known = nullptr);
+
+/// How many frames the model of the next one has seen; a finished model does not grow.
+inline int model_age(const Session& session) { return session.known ? 0 : session.frames_seen; }
 
 /// How far to take a frame: a frame that is not shown may still be needed for the model, or for the
 /// temporal filter of the next one.
@@ -56,7 +63,8 @@ TwoModeResult sample(Session& session, const RealScene& real, const RgbdFrame& f
                      const EffectPlan& plan, const SamplingSettings& settings,
                      const LightDemand& demand = {});
 
-/// One frame, from sensor to screen. Frames must come in order, from the recording's first.
+/// One frame, from sensor to screen. Without a known recording frames must come in order, from the
+/// first.
 OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work);
 
 }  // namespace inlay

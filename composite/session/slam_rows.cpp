@@ -7,8 +7,8 @@ std::vector<SettingRow> slam_rows() {
     return {
         choice<bool>("slam.poses", {{"tracked", false}, {"recorded", true}},
                      INLAY_MEMBER(use_recorded_poses)),
-        choice<bool>("slam.half_resolution", {{"off", false}, {"on", true}},
-                     INLAY_MEMBER(slam.half_resolution)),
+        row("slam.half_resolution", "on or off", INLAY_MEMBER(slam.half_resolution)),
+        row("slam.look_ahead", "on or off", INLAY_MEMBER(slam.look_ahead)),
         row("slam.depth.nearest", "m", INLAY_MEMBER(slam.depth.nearest)),
         row("slam.depth.farthest", "m", INLAY_MEMBER(slam.depth.farthest)),
         row("slam.depth.step", "standard deviations", INLAY_MEMBER(slam.depth.step)),

@@ -34,6 +34,7 @@ TrackResult track(const SlamState& state, const ObservedFrame& observed,
     if (result.status == TrackingStatus::weak) return result;
     result.status = TrackingStatus::lost;
     result.world_from_camera = state.model->world_from_camera;
+    if (result.why.empty()) result.why = "none of the earlier views explains it";
     return result;
 }
 

@@ -32,6 +32,7 @@ TrackResult track_next(SlamState& state, const RgbdFrame& frame, const SlamSetti
     if (frame.recorded_world_from_camera)
         return track_and_fuse(state, frame, settings, frame.recorded_world_from_camera);
     TrackResult lost;
+    lost.why = "it has no usable recorded pose";
     if (state.model) lost.world_from_camera = state.model->world_from_camera;
     return lost;
 }
@@ -44,7 +45,7 @@ FirstPass first_pass(const FrameSource& source, const SlamSettings& settings, Po
     for (int i = 0; i < source.count && pass.result.complete; ++i) {
         const RgbdFrame frame = source.load(i);
         const TrackResult tracking = track_next(state, frame, settings, poses);
-        pass.result.frames.push_back({frame.index, frame.time, tracking});
+        pass.result.frames.push_back({frame.index, frame.time, tracking, std::nullopt});
         if (state.keyframes.size() > pass.result.keyframes.size()) {
             pass.result.keyframes.push_back(i);
             pass.views.push_back(make_loop_view(*state.seen, tracking.world_from_camera));
@@ -149,10 +150,9 @@ bool fuse_recording(Reconstruction& result, const FrameSource& source, const Sla
                     const GoOn& go_on) {
     result.volume = make_volume(settings.fusion);
     for (std::size_t i = 0; i < result.frames.size(); ++i) {
-        if (!is_lost(result.frames[i])) {
+        if (const std::optional<Pose>& pose = result.frames[i].fused_at) {
             const RgbdFrame frame = source.load(int(i));
-            const Pose& pose = result.frames[i].tracking.world_from_camera;
-            fuse_surface(result.volume, own_surface(frame, pose, settings.depth),
+            fuse_surface(result.volume, own_surface(frame, *pose, settings.depth),
                          {frame.color, frame.lens, Pose{}}, settings.fusion);
         }
         if (!go_on(int(i) + 1)) return false;
@@ -170,6 +170,8 @@ Reconstruction reconstruct_recording(const FrameSource& source, const SlamSettin
     if (!result.complete) return std::move(result);
     if (poses == PoseSource::tracked) close_loops(pass, first.track);
     pass.views.clear();
+    for (ReconstructedFrame& frame : result.frames)
+        if (!is_lost(frame)) frame.fused_at = frame.tracking.world_from_camera;
     result.complete = fuse_recording(result, source, settings, go_on);
     if (result.complete && poses == PoseSource::tracked) {
         SlamSettings second = settings;

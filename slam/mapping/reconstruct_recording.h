@@ -7,6 +7,7 @@
 #include "slam/volume/voxel_volume.h"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace inlay {
@@ -22,6 +23,7 @@ struct ReconstructedFrame {
     int number = 0;   // the recording's own
     double time = 0;  // s
     TrackResult tracking;
+    std::optional<Pose> fused_at;  // world_from_camera; empty: it is not in the model
 };
 
 struct Reconstruction {
@@ -31,6 +33,9 @@ struct Reconstruction {
     VoxelVolume volume;
     bool complete = false;  // false: stopped before its end
 };
+
+/// How often a frame is gone over.
+constexpr int passes_at_most = 3;
 
 /// Where poses come from.
 enum class PoseSource { tracked, recorded };
@@ -47,8 +52,8 @@ using GoOn = std::function<bool(int frames)>;
 Reconstruction reconstruct_recording(const FrameSource& source, const SlamSettings& settings,
                                      PoseSource poses, const GoOn& go_on);
 
-/// The model of frames whose poses are known: those that are not lost, fused at full resolution.
-/// False if it was stopped.
+/// The model of those frames that say where they are fused, at full resolution. False if it was
+/// stopped.
 bool fuse_recording(Reconstruction& result, const FrameSource& source, const SlamSettings& settings,
                     const GoOn& go_on);
 

@@ -80,13 +80,25 @@ bool plausible(const Attempt& attempt, const TrackSettings& settings) {
            rotation_angle(Pose{}, move) <= double(settings.largest_turn);
 }
 
-TrackingStatus status_of(const TrackResult& result, const TrackSettings& settings) {
-    if (result.overlap < settings.least_overlap || result.inlier_share < settings.weak_share ||
-        result.rms_residual > settings.largest_residual) {
-        return TrackingStatus::lost;
+std::string percent(float share) { return std::to_string(int(100 * share)) + " %"; }
+
+/// Decides whether the result is to be believed, and says why where it is not.
+void judge(TrackResult& result, bool plausible, const TrackSettings& settings) {
+    result.status = TrackingStatus::lost;
+    if (!plausible) {
+        result.why = "it would have moved farther than a camera does";
+    } else if (result.overlap < settings.least_overlap) {
+        result.why = "only " + percent(result.overlap) + " of its points fall on the model";
+    } else if (result.inlier_share < settings.tracked_share) {
+        result.why = "only " + percent(result.inlier_share) + " of its points fit the model";
+        if (result.inlier_share >= settings.weak_share) result.status = TrackingStatus::weak;
     }
-    return result.inlier_share < settings.tracked_share ? TrackingStatus::weak
-                                                        : TrackingStatus::tracked;
+    if (result.rms_residual > settings.largest_residual) {
+        result.status = TrackingStatus::lost;
+        result.why = "its points are " + std::to_string(int(1000 * result.rms_residual)) +
+                     " mm off the model";
+    }
+    if (result.why.empty()) result.status = TrackingStatus::tracked;
 }
 
 }  // namespace
@@ -133,8 +145,7 @@ TrackResult track_frame(std::span<const SurfaceMap> observed, const SurfaceMap& 
     if (system.inliers > 0) {
         result.rms_residual = float(std::sqrt(system.squared_residual / system.inliers));
     }
-    result.status =
-        plausible(attempt, settings) ? status_of(result, settings) : TrackingStatus::lost;
+    judge(result, plausible(attempt, settings), settings);
     return result;
 }
 

@@ -4,6 +4,7 @@
 #include "recordings/base/surface_map.h"
 
 #include <span>
+#include <string>
 #include <vector>
 
 namespace inlay {
@@ -17,6 +18,7 @@ struct TrackResult {
     float rms_residual = 0;  // m, over the inliers
     int iterations = 0;
     float overlap = 0;  // 0..1 of the frame's points that fall on the model
+    std::string why{};  // it is not `tracked`; empty where it is
 };
 
 struct TrackSettings {

@@ -1,0 +1,122 @@
+#include "composite/session/reconstruction_json.h"
+
+#include "composite/write/frame_report.h"
+#include "recordings/base/check.h"
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace inlay {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json rows_of(const Pose& pose) {
+    Json numbers = Json::array();
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column)
+            numbers.push_back(pose.rotation[column][row]);
+        numbers.push_back(pose.translation[row]);
+    }
+    return numbers;
+}
+
+Pose pose_from(const Json& numbers) {
+    const auto n = numbers.get<std::vector<double>>();
+    require(n.size() == 12, "a pose has 12 numbers");
+    Pose pose;
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column)
+            pose.rotation[column][row] = n[std::size_t(4 * row + column)];
+        pose.translation[row] = n[std::size_t(4 * row + 3)];
+    }
+    for (const double number : n)
+        require(std::isfinite(number), "a pose is finite");
+    return pose;
+}
+
+TrackingStatus status_from(const std::string& name) {
+    for (const TrackingStatus status :
+         {TrackingStatus::tracked, TrackingStatus::weak, TrackingStatus::lost})
+        if (name == name_of(status)) return status;
+    throw Error(ExitCode::bad_data, name + ": not a status");
+}
+
+}  // namespace
+
+Json to_json(const Reconstruction& r) {
+    Json frames = Json::array();
+    for (const ReconstructedFrame& f : r.frames) {
+        const TrackResult& t = f.tracking;
+        frames.push_back({{"frame", f.number},
+                          {"time_s", f.time},
+                          {"status", name_of(t.status)},
+                          {"world_from_camera", rows_of(t.world_from_camera)},
+                          {"inlier_share", t.inlier_share},
+                          {"rms_residual_m", t.rms_residual},
+                          {"iterations", t.iterations},
+                          {"overlap", t.overlap}});
+        if (f.fused_at) frames.back()["fused_at"] = rows_of(*f.fused_at);
+    }
+    Json loops = Json::array();
+    for (const PoseEdge& loop : r.loops)
+        loops.push_back({{"from", loop.from},
+                         {"to", loop.to},
+                         {"motion", rows_of(loop.motion)},
+                         {"information", loop.information}});
+    return {{"frames", frames}, {"keyframes", r.keyframes}, {"loops", loops}};
+}
+
+Reconstruction reconstruction_from(const Json& json) {
+    Reconstruction r;
+    for (const Json& f : json.at("frames")) {
+        ReconstructedFrame frame;
+        frame.number = f.at("frame").get<int>();
+        frame.time = f.at("time_s").get<double>();
+        frame.tracking = {
+            pose_from(f.at("world_from_camera")), status_from(f.at("status").get<std::string>()),
+            f.at("inlier_share").get<float>(),    f.at("rms_residual_m").get<float>(),
+            f.at("iterations").get<int>(),        f.at("overlap").get<float>()};
+        if (f.contains("fused_at")) frame.fused_at = pose_from(f.at("fused_at"));
+        r.frames.push_back(frame);
+    }
+    r.keyframes = json.at("keyframes").get<std::vector<int>>();
+    for (const Json& l : json.at("loops"))
+        r.loops.push_back({l.at("from").get<int>(), l.at("to").get<int>(),
+                           pose_from(l.at("motion")),
+                           l.at("information").get<std::array<double, 21>>()});
+    return r;
+}
+
+Json keyframes_json(const Reconstruction& r) {
+    Json keyframes = Json::array(), loops = Json::array();
+    for (const int position : r.keyframes) {
+        const ReconstructedFrame& f = r.frames[std::size_t(position)];
+        keyframes.push_back({{"frame", f.number},
+                             {"time_s", f.time},
+                             {"world_from_camera", rows_of(f.tracking.world_from_camera)}});
+    }
+    const auto frame_of = [&](int keyframe) {
+        return r.frames[std::size_t(r.keyframes[std::size_t(keyframe)])].number;
+    };
+    for (const PoseEdge& loop : r.loops)
+        loops.push_back({{"from_frame", frame_of(loop.from)},
+                         {"to_frame", frame_of(loop.to)},
+                         {"from_to", rows_of(loop.motion)}});
+    return {{"poses", "3 x 4, row-major, m"}, {"keyframes", keyframes}, {"loops", loops}};
+}
+
+Json status_json(const ReconstructedFrame& f) {
+    const TrackResult& t = f.tracking;
+    return {{"frame", f.number},
+            {"time_s", f.time},
+            {"status", name_of(t.status)},
+            {"why", t.why},
+            {"inlier_share", t.inlier_share},
+            {"overlap", t.overlap},
+            {"rms_residual_m", t.rms_residual}};
+}
+
+}  // namespace inlay
