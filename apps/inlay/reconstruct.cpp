@@ -20,6 +20,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 namespace inlay {
 namespace {
@@ -32,6 +33,7 @@ struct ReconstructOptions {
     RecordingOptions recording;
     std::string out;
     std::string slam = "accurate";
+    bool registers = true;
 };
 
 /// What became of the chosen frames.
@@ -40,12 +42,13 @@ struct Chosen {
     std::string status_lines;
     int tracked = 0, weak = 0, lost = 0;
     std::size_t vertices = 0, triangles = 0;
+    std::optional<ColorRegistration> registration;
     bool interrupted = false;
 };
 
 /// A lost frame has a pose too, the last one known, so that the file has a line for each frame.
-void note(Chosen& chosen, const ReconstructedFrame& frame) {
-    const auto time_ns = std::int64_t(std::llround(frame.time * 1e9));
+void note(Chosen& chosen, const ReconstructedFrame& frame, std::int64_t first_time_ns) {
+    const auto time_ns = first_time_ns + std::int64_t(std::llround(frame.time * 1e9));
     chosen.trajectory.poses.push_back({time_ns, {frame.tracking.world_from_camera, ""}});
     chosen.status_lines += status_json(frame).dump() + "\n";
     chosen.tracked += frame.tracking.status == TrackingStatus::tracked;
@@ -74,19 +77,42 @@ Reconstruction reconstruct(const Recording& recording, const FrameList& frames,
     return reconstruct_recording(source, settings.slam, PoseSource::tracked, go_on);
 }
 
-Chosen write_all(const fs::path& folder, const Reconstruction& result, const FrameList& frames) {
+Chosen write_all(const fs::path& folder, const Reconstruction& result, const FrameList& frames,
+                 std::int64_t first_time_ns) {
     Chosen chosen;
     for (const ReconstructedFrame& frame : result.frames)
-        if (frames.contains(frame.number)) note(chosen, frame);
+        if (frames.contains(frame.number)) note(chosen, frame, first_time_ns);
     const TriangleMesh mesh = extract_mesh(result.volume);
     chosen.vertices = mesh.positions.size();
     chosen.triangles = mesh.triangles.size();
     chosen.interrupted = !result.complete;
+    chosen.registration = result.registration;
     write_tum_trajectory(folder / "poses.txt", chosen.trajectory);
     write_text(folder / "status.jsonl", chosen.status_lines);
     write_text(folder / "keyframes.json", keyframes_json(result).dump(2) + "\n");
+    if (result.registration)
+        write_text(folder / "registration.json",
+                   registration_json(*result.registration).dump(2) + "\n");
     write_ply(folder / "mesh.ply", mesh);
     return chosen;
+}
+
+void report(const ColorRegistration& r) {
+    if (r.points == 0) {
+        spdlog::warn(
+            "too few or too small images to tell how color and depth lie to each other: "
+            "taken as registered");
+        return;
+    }
+    const glm::dvec3& t = r.color_from_depth.translation;
+    spdlog::info(
+        "color camera: {}; t = ({:.1f}, {:.1f}, {:.1f}) mm, turned by {:.2f} degrees, f = {:.1f} "
+        "px, "
+        "{:.1f} ms later ({}); depth edges {:.2f} px from color edges before, {:.2f} px after",
+        r.needed ? "apart from the depth camera" : "registered to depth as recorded", 1e3 * t.x,
+        1e3 * t.y, 1e3 * t.z, glm::degrees(rotation_angle(Pose{}, r.color_from_depth)),
+        r.color_lens.fx, 1e3 * r.delay, r.delay_needed ? "heeded" : "not told from 0",
+        r.distance_before, r.distance_after);
 }
 
 void report(const ReconstructOptions& options, const Chosen& result) {
@@ -101,6 +127,7 @@ void report(const ReconstructOptions& options, const Chosen& result) {
         std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
         return;
     }
+    if (result.registration) report(*result.registration);
     spdlog::info("{} frames tracked, {} weak, {} lost; {} triangles; {}", result.tracked,
                  result.weak, result.lost, result.triangles, options.out);
 }
@@ -114,8 +141,10 @@ int run(const ReconstructOptions& options) {
     catch_interrupts();
     Settings settings;
     if (options.slam == "fast") settings.slam = fast_slam();
-    const Chosen result = write_all(
-        options.out, reconstruct(recording, chosen, settings, options.common.quiet), chosen);
+    settings.slam.register_color = options.registers;
+    const Chosen result =
+        write_all(options.out, reconstruct(recording, chosen, settings, options.common.quiet),
+                  chosen, recording.info.first_time_ns);
     report(options, result);
     return int(result.interrupted ? ExitCode::interrupted : ExitCode::done);
 }
@@ -139,6 +168,9 @@ std::function<int()> add_reconstruct(CLI::App& subcommand) {
             "fast: one pass at half resolution; accurate: looks ahead, closes loops, tracks twice")
         ->check(CLI::IsMember({"fast", "accurate"}))
         ->capture_default_str();
+    subcommand.add_flag("--register,!--no-register", options->registers,
+                        "find out how the color images lie to the depth images, and use it where "
+                        "they are not registered (with --slam accurate; on by default)");
     return [options] { return run(*options); };
 }
 

@@ -24,7 +24,7 @@ TrackedFrame kept(const RgbdFrame& frame, SlamStep step, const VoxelVolume& volu
     result.frame = frame.index;
     result.time = frame.time;
     result.tracking = step.tracking;
-    result.lens = frame.lens;
+    result.lens = step.surface.lens;
     result.world_from_camera = step.surface.world_from_camera;
     result.photo = std::make_shared<const Photo>(linearise(frame.color));
     if (step.tracking.status == TrackingStatus::lost) return result;  // there is nothing to trace

@@ -111,11 +111,11 @@ std::shared_ptr<const Reconstruction> reconstruct_afresh(const Recording& record
         reconstruct_recording(frames_of(recording), settings.slam, poses, go_on));
 }
 
-TrackResult tracking_of(const Reconstruction& known, int number) {
+int position_of(const Reconstruction& known, int number) {
     const auto frame =
         std::find_if(known.frames.begin(), known.frames.end(),
                      [&](const ReconstructedFrame& f) { return f.number == number; });
-    return frame == known.frames.end() ? TrackResult{} : frame->tracking;
+    return frame == known.frames.end() ? -1 : int(frame - known.frames.begin());
 }
 
 }  // namespace inlay

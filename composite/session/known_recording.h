@@ -25,7 +25,7 @@ std::shared_ptr<const Reconstruction> reconstruct_afresh(
     const Recording& recording, const Settings& settings,
     const GoOn& go_on = [](int) { return true; });
 
-/// What became of the frame with the recording's `number`; lost where it has none.
-TrackResult tracking_of(const Reconstruction& known, int number);
+/// The position of the frame with the recording's `number`; -1 where it has none.
+int position_of(const Reconstruction& known, int number);
 
 }  // namespace inlay

@@ -4,6 +4,7 @@
 #include "render/trace/map_primary.h"
 #include "render/trace/screen_real_geometry.h"
 #include "slam/depth/smooth_normals.h"
+#include "slam/mapping/color_camera.h"
 #include "slam/mapping/see_model.h"
 #include "slam/mesh/extract_mesh.h"
 
@@ -69,8 +70,19 @@ SlamStep track_frame_of(SlamState& slam, const RgbdFrame& frame, const Settings&
 
 SlamStep known_frame_of(const Reconstruction& known, const RgbdFrame& frame,
                         const Settings& settings) {
-    SlamStep step{tracking_of(known, frame.index), {}};
-    step.surface = see_model(known.volume, frame, step.tracking, settings.slam);
+    const int position = position_of(known, frame.index);
+    SlamStep step;
+    if (position >= 0) step.tracking = known.frames[std::size_t(position)].tracking;
+    const auto& registration = known.registration;
+    if (position >= 0 && registration && (registration->needed || registration->delay_needed)) {
+        const ColorCamera camera = color_camera_of(known, position, frame.lens);
+        Pose& pose = step.tracking.world_from_camera;
+        pose = pose * inverse(camera.color_from_depth);
+        step.surface = raycast_volume(known.volume, camera.lens, pose, settings.slam.raycast);
+        if (step.tracking.status == TrackingStatus::lost) forget(step.surface);
+    } else {
+        step.surface = see_model(known.volume, frame, step.tracking, settings.slam);
+    }
     step.surface.normal = smooth_normals(step.surface);
     return step;
 }

@@ -16,7 +16,7 @@ namespace inlay {
 /// it is.
 SlamStep track_frame_of(SlamState& slam, const RgbdFrame& frame, const Settings& settings);
 
-/// What the finished model of a recording shows in a frame.
+/// What the finished model of a recording shows in a frame, to the camera that took its photograph.
 SlamStep known_frame_of(const Reconstruction& known, const RgbdFrame& frame,
                         const Settings& settings);
 

@@ -37,6 +37,36 @@ Pose pose_from(const Json& numbers) {
     return pose;
 }
 
+Json numbers_of(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+glm::dvec3 vector_from(const Json& json) {
+    const auto n = json.get<std::array<double, 3>>();
+    return {n[0], n[1], n[2]};
+}
+
+ColorRegistration registration_from(const Json& json) {
+    ColorRegistration r;
+    r.needed = json.at("needed").get<bool>();
+    r.delay_needed = json.at("delay_needed").get<bool>();
+    r.color_from_depth = pose_from(json.at("color_from_depth"));
+    r.rotation_sd = vector_from(json.at("rotation_sd_rad"));
+    r.translation_sd = vector_from(json.at("translation_sd_m"));
+    const auto l = json.at("color_lens").get<std::array<double, 11>>();
+    r.color_lens = {int(l[0]), int(l[1]), l[2], l[3], l[4], l[5], l[6], l[7], l[8], l[9], l[10]};
+    r.focal_sd = json.at("focal_sd_px").get<double>();
+    r.delay = json.at("delay_s").get<double>();
+    r.delay_sd = json.at("delay_sd_s").get<double>();
+    r.shift_px = json.at("shift_px").get<double>();
+    r.sd_px = json.at("shift_sd_px").get<double>();
+    r.delay_px = json.at("delay_px").get<double>();
+    r.distance_before = json.at("edge_distance_px").at("before").get<double>();
+    r.distance_after = json.at("edge_distance_px").at("after").get<double>();
+    r.near_before = json.at("share_within_2_px").at("before").get<double>();
+    r.near_after = json.at("share_within_2_px").at("after").get<double>();
+    r.points = json.at("points").get<int>();
+    return r;
+}
+
 TrackingStatus status_from(const std::string& name) {
     for (const TrackingStatus status :
          {TrackingStatus::tracked, TrackingStatus::weak, TrackingStatus::lost})
@@ -66,7 +96,9 @@ Json to_json(const Reconstruction& r) {
                          {"to", loop.to},
                          {"motion", rows_of(loop.motion)},
                          {"information", loop.information}});
-    return {{"frames", frames}, {"keyframes", r.keyframes}, {"loops", loops}};
+    Json json{{"frames", frames}, {"keyframes", r.keyframes}, {"loops", loops}};
+    if (r.registration) json["registration"] = registration_json(*r.registration);
+    return json;
 }
 
 Reconstruction reconstruction_from(const Json& json) {
@@ -82,12 +114,33 @@ Reconstruction reconstruction_from(const Json& json) {
         if (f.contains("fused_at")) frame.fused_at = pose_from(f.at("fused_at"));
         r.frames.push_back(frame);
     }
+    if (json.contains("registration")) r.registration = registration_from(json.at("registration"));
     r.keyframes = json.at("keyframes").get<std::vector<int>>();
     for (const Json& l : json.at("loops"))
         r.loops.push_back({l.at("from").get<int>(), l.at("to").get<int>(),
                            pose_from(l.at("motion")),
                            l.at("information").get<std::array<double, 21>>()});
     return r;
+}
+
+Json registration_json(const ColorRegistration& r) {
+    const Lens& l = r.color_lens;
+    return {
+        {"needed", r.needed},
+        {"delay_needed", r.delay_needed},
+        {"color_from_depth", rows_of(r.color_from_depth)},
+        {"rotation_sd_rad", numbers_of(r.rotation_sd)},
+        {"translation_sd_m", numbers_of(r.translation_sd)},
+        {"color_lens", {l.width, l.height, l.fx, l.fy, l.cx, l.cy, l.k1, l.k2, l.k3, l.p1, l.p2}},
+        {"focal_sd_px", r.focal_sd},
+        {"delay_s", r.delay},
+        {"delay_sd_s", r.delay_sd},
+        {"shift_px", r.shift_px},
+        {"shift_sd_px", r.sd_px},
+        {"delay_px", r.delay_px},
+        {"edge_distance_px", {{"before", r.distance_before}, {"after", r.distance_after}}},
+        {"share_within_2_px", {{"before", r.near_before}, {"after", r.near_after}}},
+        {"points", r.points}};
 }
 
 Json keyframes_json(const Reconstruction& r) {

@@ -18,6 +18,10 @@ Reconstruction reconstruction_from(const nlohmann::ordered_json& json);
 /// drift that they took out.
 nlohmann::ordered_json keyframes_json(const Reconstruction& reconstruction);
 
+/// What `registration.json` says: the motion from the depth camera to the color camera, the color
+/// camera's lens, the delay, how sure they are, and the verdict.
+nlohmann::ordered_json registration_json(const ColorRegistration& registration);
+
 /// A line of `status.jsonl`: what became of a frame, and why.
 nlohmann::ordered_json status_json(const ReconstructedFrame& frame);
 

@@ -48,8 +48,8 @@ TwoModeResult sample(Session& session, const RealScene& real, const RgbdFrame& f
     const EmbreeScene objects =
         session.virtual_structures.place(session.scene, frame.time, /*real=*/false);
     const bool lit = plan.has("environment_direct");
-    const TwoModeScene scene{frame.lens, real.surface->world_from_camera, real.geometry, objects,
-                             lit ? session.environment : session.no_light};
+    const TwoModeScene scene{real.surface->lens, real.surface->world_from_camera, real.geometry,
+                             objects, lit ? session.environment : session.no_light};
     return sample_two_modes(scene, planned_sampling(plan, settings), std::uint32_t(frame.index),
                             demand);
 }
@@ -62,15 +62,16 @@ OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work) {
     SlamStep slam = session.known ? known_frame_of(*session.known, frame, settings)
                                   : track_frame_of(session.slam, frame, settings);
     out.tracking = slam.tracking;
+    if (slam.surface.lens.width == 0) slam.surface.lens = frame.lens;  // lost before any surface
     update_model(session.model, volume_of(session), model_age(session), settings.geometry);
     ++session.frames_seen;
     out.ms.slam = watch.lap();
     const std::shared_ptr<const NoisyLayers> previous = std::exchange(session.previous, nullptr);
     if (work == FrameWork::track) return out;
 
-    SceneFacts facts =
-        gather_facts({session.scene, session.bounds, frame.lens, slam.tracking.world_from_camera,
-                      frame.time, session.time_before, session.environment.mean_luminance > 0});
+    SceneFacts facts = gather_facts({session.scene, session.bounds, slam.surface.lens,
+                                     slam.tracking.world_from_camera, frame.time,
+                                     session.time_before, session.environment.mean_luminance > 0});
     session.time_before = frame.time;
     facts.tracked = slam.tracking.status != TrackingStatus::lost;
     facts.first_frame = !previous;

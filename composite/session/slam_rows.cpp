@@ -9,6 +9,7 @@ std::vector<SettingRow> slam_rows() {
                      INLAY_MEMBER(use_recorded_poses)),
         row("slam.half_resolution", "on or off", INLAY_MEMBER(slam.half_resolution)),
         row("slam.look_ahead", "on or off", INLAY_MEMBER(slam.look_ahead)),
+        row("slam.register_color", "on or off", INLAY_MEMBER(slam.register_color)),
         row("slam.depth.nearest", "m", INLAY_MEMBER(slam.depth.nearest)),
         row("slam.depth.farthest", "m", INLAY_MEMBER(slam.depth.farthest)),
         row("slam.depth.step", "standard deviations", INLAY_MEMBER(slam.depth.step)),

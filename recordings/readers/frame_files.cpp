@@ -131,6 +131,7 @@ void fit_lens(RecordingInfo& info, const glm::ivec2& size, const OpenOptions& op
 void fill_frames(RecordingInfo& info, const std::vector<FrameFiles>& frames) {
     std::vector<int> without, unusable;
     std::string first_fault;
+    if (!info.synthetic_times && !frames.empty()) info.first_time_ns = frames.front().time_ns;
     for (const FrameFiles& frame : frames) {
         info.frames.push_back(frame.number);
         info.times.push_back(double(frame.time_ns - frames.front().time_ns) * 1e-9);

@@ -5,6 +5,7 @@
 #include "recordings/base/rgbd_frame.h"
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -17,9 +18,10 @@ namespace inlay {
 /// `world_from_camera` run in parallel.
 struct RecordingInfo {
     std::filesystem::path path;
-    std::string profile;                                 // the reader's name
-    std::vector<int> frames;                             // the recording's own numbers, ascending
-    std::vector<double> times;                           // s since the first frame
+    std::string profile;             // the reader's name
+    std::vector<int> frames;         // the recording's own numbers, ascending
+    std::vector<double> times;       // s since the first frame
+    std::int64_t first_time_ns = 0;  // of the first frame, by the files' clock if any
     std::vector<std::optional<Pose>> world_from_camera;  // as recorded
     bool synthetic_times = false;                        // the files carry none: 30 a second
     Lens lens;                                           // of both images

@@ -10,7 +10,7 @@
 namespace inlay {
 namespace {
 
-constexpr int least_width = 320;  // px; smaller images are not halved
+constexpr int least_width = 320;  // px; smaller images are neither halved nor smoothed less
 
 void require_sizes(const RgbdFrame& frame) {
     const auto fits = [&](int width, int height) {
@@ -31,15 +31,16 @@ void require_sizes(const RgbdFrame& frame) {
 ObservedFrame observe_frame(const RgbdFrame& frame, const SlamSettings& settings) {
     require_sizes(frame);
     ObservedFrame observed;
-    DepthLevel finest{clean_depth(frame.depth, settings.depth), frame.lens};
-    if (settings.half_resolution && frame.lens.width >= least_width)
-        finest = halve(finest, settings.depth);
+    DepthSettings depth = settings.depth;
+    DepthLevel finest{clean_depth(frame.depth, depth), frame.lens};
+    if (frame.lens.width >= least_width) {
+        if (settings.half_resolution) finest = halve(finest, depth);
+        depth.smoothing_radius /= 2;  // tracking wants the noise of normals to show
+    }
     observed.clean = std::move(finest.depth);
-    for (const DepthLevel& level :
-         depth_pyramid(smooth_depth(observed.clean, settings.depth), finest.lens,
-                       settings.track.levels, settings.depth)) {
-        observed.pyramid.push_back(
-            surface_from_depth(level.depth, level.lens, Pose{}, settings.depth));
+    for (const DepthLevel& level : depth_pyramid(smooth_depth(observed.clean, depth), finest.lens,
+                                                 settings.track.levels, depth)) {
+        observed.pyramid.push_back(surface_from_depth(level.depth, level.lens, Pose{}, depth));
     }
     return observed;
 }

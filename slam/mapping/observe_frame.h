@@ -14,7 +14,9 @@ struct ObservedFrame {
     std::vector<SurfaceMap> pyramid;  // of the smoothed depth, finest first, in the camera's frame
 };
 
-/// Cleaned, halved if the settings ask for it, smoothed, and a pyramid of settings.track.levels.
+/// For tracking: cleaned, halved if the settings ask for it, smoothed by half of the radius, and a
+/// pyramid of settings.track.levels. Images of less than 320 px across are not halved, and smoothed
+/// by all of it.
 /// Throws Error if the frame's images do not have the lens's size.
 ObservedFrame observe_frame(const RgbdFrame& frame, const SlamSettings& settings);
 

@@ -1,6 +1,7 @@
 #include "slam/mapping/reconstruct_recording.h"
 
 #include "slam/mapping/advance_slam.h"
+#include "slam/mapping/color_camera.h"
 #include "slam/mapping/find_loops.h"
 #include "slam/mapping/observe_frame.h"
 #include "slam/track/se3.h"
@@ -152,8 +153,9 @@ bool fuse_recording(Reconstruction& result, const FrameSource& source, const Sla
     for (std::size_t i = 0; i < result.frames.size(); ++i) {
         if (const std::optional<Pose>& pose = result.frames[i].fused_at) {
             const RgbdFrame frame = source.load(int(i));
+            const ColorCamera camera = color_camera_of(result, int(i), frame.lens);
             fuse_surface(result.volume, own_surface(frame, *pose, settings.depth),
-                         {frame.color, frame.lens, Pose{}}, settings.fusion);
+                         {frame.color, camera.lens, camera.color_from_depth}, settings.fusion);
         }
         if (!go_on(int(i) + 1)) return false;
     }
@@ -172,11 +174,10 @@ Reconstruction reconstruct_recording(const FrameSource& source, const SlamSettin
     pass.views.clear();
     for (ReconstructedFrame& frame : result.frames)
         if (!is_lost(frame)) frame.fused_at = frame.tracking.world_from_camera;
+    if (settings.register_color) result.registration = register_recording(result, source, settings);
     result.complete = fuse_recording(result, source, settings, go_on);
     if (result.complete && poses == PoseSource::tracked) {
-        SlamSettings second = settings;
-        second.depth.smoothing_radius = first.depth.smoothing_radius;  // knows its normals' noise
-        result.complete = second_pass(result, source, second, go_on);
+        result.complete = second_pass(result, source, settings, go_on);
     }
     return std::move(result);
 }

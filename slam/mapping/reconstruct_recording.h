@@ -4,6 +4,7 @@
 #include "recordings/base/rgbd_frame.h"
 #include "slam/mapping/pose_graph.h"
 #include "slam/mapping/slam_settings.h"
+#include "slam/registration/register_color.h"
 #include "slam/volume/voxel_volume.h"
 
 #include <functional>
@@ -30,6 +31,7 @@ struct Reconstruction {
     std::vector<ReconstructedFrame> frames;
     std::vector<int> keyframes;   // positions in `frames`
     std::vector<PoseEdge> loops;  // between positions in `keyframes`, where drift was taken out
+    std::optional<ColorRegistration> registration;  // empty: not asked for
     VoxelVolume volume;
     bool complete = false;  // false: stopped before its end
 };
@@ -46,7 +48,8 @@ using GoOn = std::function<bool(int frames)>;
 /// Tracks the recording from its first frame, as track_and_fuse() does. If the settings look ahead,
 /// drift is taken out where views meet again (Gauss-Newton on keyframes), the model is fused anew
 /// from the frames at full resolution and corrected poses, and every frame is tracked once more
-/// against that: so early frames see what later ones found out, and lost ones may be found. With
+/// against that: so early frames see what later ones found out, and lost ones may be found. How the
+/// color images lie to the depth images is estimated before the second fusion, which heeds it. With
 /// recorded poses, frames that have none are lost. Same bytes for any number of threads.
 /// Throws Error as track_and_fuse().
 Reconstruction reconstruct_recording(const FrameSource& source, const SlamSettings& settings,

@@ -7,6 +7,10 @@
 
 namespace inlay {
 
+void forget(SurfaceMap& surface) {
+    std::fill(surface.confidence.pixels.begin(), surface.confidence.pixels.end(), 0.0f);
+}
+
 SurfaceMap completed(SurfaceMap model, const SurfaceMap& own, const RaycastSettings& settings) {
     for (std::size_t i = 0; i < model.position.pixels.size(); ++i) {
         if (model.position.pixels[i].z > 0 || own.position.pixels[i].z <= 0) continue;
@@ -22,7 +26,7 @@ SurfaceMap see_model(const VoxelVolume& volume, const RgbdFrame& frame, const Tr
     const Pose& pose = tracking.world_from_camera;
     SurfaceMap model = raycast_volume(volume, frame.lens, pose, settings.raycast);
     if (tracking.status == TrackingStatus::lost) {
-        std::fill(model.confidence.pixels.begin(), model.confidence.pixels.end(), 0.0f);
+        forget(model);
         return model;
     }
     return completed(std::move(model), own_surface(frame, pose, settings.depth), settings.raycast);

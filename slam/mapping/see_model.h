@@ -14,6 +14,9 @@ namespace inlay {
 SurfaceMap see_model(const VoxelVolume& volume, const RgbdFrame& frame, const TrackResult& tracking,
                      const SlamSettings& settings);
 
+/// Takes all confidence from a surface.
+void forget(SurfaceMap& surface);
+
 /// `model`, completed by `own` of the same lens and pose.
 SurfaceMap completed(SurfaceMap model, const SurfaceMap& own, const RaycastSettings& settings);
 

@@ -10,7 +10,7 @@ SlamSettings fast_slam() {
     SlamSettings settings;
     settings.look_ahead = false;
     settings.half_resolution = true;
-    settings.depth.smoothing_radius = 1;
+    settings.depth.smoothing_radius = 2;
     settings.fusion.voxel_size = 0.012f;
     settings.fusion.truncation = 0.048f;
     settings.track.iterations = 6;
@@ -22,8 +22,6 @@ SlamSettings first_pass_of(const SlamSettings& settings) {
     SlamSettings first = settings;
     first.look_ahead = false;
     first.half_resolution = true;
-    first.depth.smoothing_radius =
-        std::min(settings.depth.smoothing_radius, fast.depth.smoothing_radius);
     first.fusion.voxel_size *= 1.5f;
     first.fusion.truncation *= 1.5f;
     first.track.iterations = std::min(settings.track.iterations, fast.track.iterations);

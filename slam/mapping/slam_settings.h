@@ -14,7 +14,8 @@ struct SlamSettings {
     RaycastSettings raycast;
     TrackSettings track;
     bool half_resolution = false;  // track and fuse every second pixel
-    bool look_ahead = true;        // reconstruct_recording() goes over the recording again
+    bool look_ahead = true;        // reconstruct_recording() goes over the recording again,
+    bool register_color = true;    // and then aligns color with depth where a check says so
 };
 
 /// Settings for --slam accurate (the defaults of every stage) and fast (half resolution, larger

@@ -10,11 +10,11 @@ namespace {
 
 constexpr double border = 3;          // px
 constexpr double reach = 3;           // sigma, of the search along the normal
-constexpr double spacing = 0.5;       // px, of its samples
+constexpr int per_pixel = 2;          // samples
 constexpr double widest_sigma = 5;    // px
 constexpr double least_contrast = 3;  // of 255 per px across the rim; less is noise
 constexpr double half_contrast = 8;   // at which an edge counts half
-constexpr std::size_t most_samples = 2 * std::size_t(reach * widest_sigma / spacing) + 1;
+constexpr std::size_t most_samples = 2 * std::size_t(reach * widest_sigma) * per_pixel + 1;
 
 bool inside(const Image<glm::vec2>& image, const glm::dvec2& p, double margin) {
     return p.x > margin && p.y > margin && p.x < image.width - 1 - margin &&
@@ -47,32 +47,34 @@ double contrast(const Image<glm::vec2>& gradient, const glm::dvec2& p, const glm
     return std::abs(double(g.x) * normal.x + double(g.y) * normal.y);
 }
 
-/// Where three samples, `spacing` apart, have their maximum: px from the middle one.
+/// Where the parabola through three samples, 1 px apart, has its maximum: px from the middle one.
+/// Bilinear sampling may make the top flat, but no wider than that.
 double peak(double before, double middle, double after) {
     const double curvature = before - 2 * middle + after;
     if (!(curvature < -1e-6)) return 0;
-    return spacing * std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
+    return std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
 }
 
 /// The local maximum of contrast that is strong and close.
 std::optional<EdgeMatch> crossed_edge(const ColorEdges& edges, const SeenRim& rim, double sigma) {
     assert(sigma <= widest_sigma);
-    const int half = int(reach * sigma / spacing);
+    const int half = int(reach * sigma) * per_pixel;
     if (!inside(edges.gradient, rim.position, reach * sigma + 2)) return std::nullopt;
-    std::array<double, most_samples> samples;
+    std::array<double, most_samples> samples{};
+    double* const middle = samples.data() + half;
     for (int k = -half; k <= half; ++k) {
-        samples[std::size_t(k + half)] =
-            contrast(edges.gradient, rim.position + k * spacing * rim.normal, rim.normal);
+        middle[k] =
+            contrast(edges.gradient, rim.position + k / double(per_pixel) * rim.normal, rim.normal);
     }
     double best_score = 0, best_offset = 0;
-    for (int k = 1 - half; k < half; ++k) {
-        const double* c = &samples[std::size_t(k + half)];
+    for (int k = per_pixel - half; k <= half - per_pixel; ++k) {
+        const double* c = middle + k;
         if (!(c[0] >= c[-1] && c[0] > c[1] && c[0] > least_contrast)) continue;
-        const double away = k * spacing / sigma;
+        const double away = k / double(per_pixel) / sigma;
         const double score = c[0] / (c[0] + half_contrast) * std::exp(-0.5 * away * away);
         if (score <= best_score) continue;
         best_score = score;
-        best_offset = k * spacing + peak(c[-1], c[0], c[1]);
+        best_offset = k / double(per_pixel) + peak(c[-per_pixel], c[0], c[per_pixel]);
     }
     if (best_score == 0) return std::nullopt;
     return EdgeMatch{-best_offset, rim.normal};

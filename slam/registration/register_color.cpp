@@ -42,7 +42,7 @@ void check_input(std::span<const RegistrationFrame> frames, const Lens& depth_le
 }
 
 /// So many of the edges, in their order.
-std::vector<DepthEdge> random_choice(std::vector<DepthEdge> edges, std::size_t most,
+std::vector<DepthEdge> random_choice(std::span<const DepthEdge> edges, std::size_t most,
                                      const SampleKey& key) {
     std::vector<std::size_t> order(edges.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
@@ -109,7 +109,7 @@ Estimate estimate_mapping(const RimViews& problem, MappingUnknowns unknowns) {
     std::iota(all.begin(), all.end(), 0);
     const ColorMapping coarse = search_mapping(problem, unknowns);
     const ColorMapping fine = refine_mapping(problem, all, coarse, unknowns, 0);
-    const Estimate estimate = doubted(problem, fine, unknowns);
+    Estimate estimate = doubted(problem, fine, unknowns);
     const double sd = estimate.sd.parameters[MappingParameter::log_focal];
     const double least = std::max(least_log_focal, significant * sd);
     if (!unknowns.log_focal || std::abs(estimate.mapping.log_focal) >= least) return estimate;
@@ -123,9 +123,11 @@ Estimate estimate_mapping(const RimViews& problem, MappingUnknowns unknowns) {
 bool generalizes(const RimViews& problem, const Estimate& estimate) {
     std::size_t better = 0;
     for (const HeldOut& part : estimate.held_out) {
-        const double mapped = mapping_score(problem, part.frames, part.mapping, verdict_sigma);
-        const double as_is = mapping_score(problem, part.frames, {}, verdict_sigma);
-        if (mapped > least_gain * as_is) ++better;
+        ColorMapping registered;
+        registered.rim = part.mapping.rim;  // where rims lie is no matter of registration
+        const double with = mapping_score(problem, part.frames, part.mapping, verdict_sigma);
+        const double without = mapping_score(problem, part.frames, registered, verdict_sigma);
+        if (with > least_gain * without) ++better;
     }
     return better + 1 >= estimate.held_out.size();
 }
@@ -167,9 +169,9 @@ void validate(const RegistrationSettings& s) {
 
 std::vector<int> spread_frames(int count, int chosen) {
     const int used = std::clamp(chosen, 0, std::max(count, 0));
-    std::vector<int> result;
-    for (int i = 0; i < used; ++i)
-        result.push_back(used > 1 ? int(std::int64_t(i) * (count - 1) / (used - 1)) : count / 2);
+    std::vector<int> result(std::size_t(used), count / 2);
+    for (int i = 0; i < used && used > 1; ++i)
+        result[std::size_t(i)] = int(std::int64_t(i) * (count - 1) / (used - 1));
     return result;
 }
 

@@ -24,7 +24,7 @@ struct RegistrationFrame {
 };
 
 struct RegistrationSettings {
-    int frames = 30;          // for spread_frames(); with less than 12 the uncertainty is vague
+    int frames = 30;          // for spread_frames(); with fewer than 12 the uncertainty is vague
     int points = 400;         // per frame, at most: rims chosen at random
     bool lens_known = false;  // the color camera's focal length is not to be refined
     std::uint32_t seed = 1;   // of the choice
@@ -34,7 +34,7 @@ struct RegistrationSettings {
 /// Throws Error that names the setting which is out of range.
 void validate(const RegistrationSettings& settings);
 
-/// The places of `chosen` frames, or of all if there are less, spread over a recording of `count`.
+/// The places of `chosen` frames, or of all if there are fewer, spread over a recording of `count`.
 std::vector<int> spread_frames(int count, int chosen);
 
 /// An estimate with its doubts, standard deviations from leaving out a quarter of the recording at
@@ -62,11 +62,11 @@ struct ColorRegistration {
 
 /// Estimates the mapping under which rims of depth images lie on edges of color images: a search
 /// over focal length, baseline and two rotations on some of the frames, then refinement on all.
-/// `trajectory` (ascending times) gives the depth camera's motion, for the delay; with less than
+/// `trajectory` (ascending times) gives the depth camera's motion, for the delay; with fewer than
 /// two poses the delay is taken to be 0. A mapping is said to be needed if it moves rims by more
 /// than 1 px and three standard deviations, and explains quarters of the recording that it was not
 /// estimated from better than "registered already" does. Needs three frames with 50 rim pixels
-/// each. Throws Error if an image has not the size of its lens, or times do not ascend.
+/// each. Throws Error if an image does not have its lens's size, or times do not ascend.
 ColorRegistration register_color(std::span<const RegistrationFrame> frames, const Lens& depth_lens,
                                  const Lens& color_lens, std::span<const TimedCamera> trajectory,
                                  const RegistrationSettings& settings = {});

@@ -35,21 +35,19 @@ std::vector<ColorMapping> grid(bool with_focal) {
     std::vector<ColorMapping> mappings;
     for (const double log_focal : log_focals) {
         if (!with_focal && log_focal != 0) continue;
+        ColorMapping start;
+        start.log_focal = log_focal;
         for (const double baseline : baselines) {
             for (const double about_x : turns) {
-                for (const double about_y : turns) {
-                    ColorMapping start;
-                    start.log_focal = log_focal;
-                    mappings.push_back(
-                        moved(start, {about_x, about_y, 0, baseline, 0, 0, 0, 0, 0}));
-                }
+                for (const double about_y : turns)
+                    mappings.push_back(moved(start, {about_x, about_y, 0, baseline}));
             }
         }
     }
     return mappings;
 }
 
-/// The points of the grid with the highest scores, and "registered already".
+/// "Registered already", and the points of the grid with the highest scores.
 std::vector<ColorMapping> starts_of(const RimViews& problem, std::span<const int> chosen,
                                     bool with_focal) {
     const std::vector<ColorMapping> mappings = grid(with_focal);
@@ -62,10 +60,9 @@ std::vector<ColorMapping> starts_of(const RimViews& problem, std::span<const int
     std::iota(order.begin(), order.end(), std::size_t(0));
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return scores[a] > scores[b]; });
-    std::vector<ColorMapping> starts;
+    std::vector<ColorMapping> starts{{}};
     for (std::size_t i = 0; i < grid_starts; ++i)
         starts.push_back(mappings[order[i]]);
-    starts.push_back({});
     return starts;
 }
 
@@ -87,7 +84,7 @@ SolvedMapping solve_coarsely(const RimViews& problem, std::span<const int> chose
 
 ColorMapping search_mapping(const RimViews& problem, const MappingUnknowns& unknowns) {
     const std::vector<int> chosen = some_frames(problem);
-    SolvedMapping best{{}, 2};
+    SolvedMapping best;
     for (const ColorMapping& start : starts_of(problem, chosen, unknowns.log_focal)) {
         const SolvedMapping solved = solve_coarsely(problem, chosen, start, unknowns);
         if (solved.cost < best.cost) best = solved;

@@ -1,6 +1,7 @@
 // Views and depth images that break trackers, and the same bytes for any number of threads.
 #include "recordings/base/parallel.h"
 #include "slam/mapping/advance_slam.h"
+#include "slam/mapping/reconstruct_recording.h"
 #include "slam/mesh/extract_mesh.h"
 #include "tests/unit/slam/analytic_room.h"
 
@@ -203,6 +204,23 @@ bool same_bricks(const std::vector<Brick>& a, const std::vector<Brick>& b) {
         return p.key == q.key && p.distance == q.distance && p.weight == q.weight &&
                p.color == q.color && p.color_weight == q.color_weight;
     });
+}
+
+TEST(SlamThreads, AReconstructionIsTheSameForOneAndThreeThreads) {
+    const FrameSource source{10, [](int i) { return test::room_frame(i, swaying(i), 1); }};
+    const auto run = [&](int threads) {
+        set_thread_count(threads);
+        Reconstruction result = reconstruct_recording(source, accurate_slam(), PoseSource::tracked,
+                                                      [](int) { return true; });
+        set_thread_count(0);
+        return result;
+    };
+    const Reconstruction one = run(1), three = run(3);
+    for (std::size_t i = 0; i < one.frames.size(); ++i)
+        EXPECT_TRUE(same_pose(one.frames[i].tracking.world_from_camera,
+                              three.frames[i].tracking.world_from_camera));
+    EXPECT_TRUE(same_bricks({one.volume.bricks.begin(), one.volume.bricks.end()},
+                            {three.volume.bricks.begin(), three.volume.bricks.end()}));
 }
 
 TEST(SlamThreads, OneTwoAndFiveThreadsGiveTheSameBytes) {

@@ -1,0 +1,130 @@
+// A recording gone over again: loops close, lost frames are found, early frames know what later
+// ones saw.
+#include "slam/mapping/reconstruct_recording.h"
+#include "slam/mapping/trajectory_error.h"
+#include "tests/unit/slam/four_walls.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace inlay {
+namespace {
+
+const GoOn to_the_end = [](int) { return true; };
+
+std::vector<Pose> poses_of(const Reconstruction& result) {
+    std::vector<Pose> poses;
+    for (const ReconstructedFrame& frame : result.frames)
+        poses.push_back(frame.tracking.world_from_camera);
+    return poses;
+}
+
+/// Once around the room, and a little more.
+constexpr int around = 300, frames = 320;
+
+std::vector<Pose> true_path() {
+    std::vector<Pose> poses;
+    for (int i = 0; i < frames; ++i)
+        poses.push_back(test::around_the_room(double(i) / around));
+    return poses;
+}
+
+FrameSource walk(double bend) {
+    return {frames, [bend](int i) {
+                RgbdFrame frame =
+                    test::wall_frame(i, test::around_the_room(double(i) / around), 1, bend);
+                if (i == 0) frame.recorded_world_from_camera = test::around_the_room(0);
+                return frame;
+            }};
+}
+
+/// How far (m) the motion from the first view to the one a turn later is from the true one.
+double gap(const std::vector<Pose>& poses) {
+    const auto motion = [](const std::vector<Pose>& p) {
+        return inverse(p.front()) * p[std::size_t(around)];
+    };
+    return glm::length((inverse(motion(true_path())) * motion(poses)).translation);
+}
+
+TEST(ReconstructRecording, ALoopAlongFourWallsCloses) {
+    // Depth that is 1.5 % too large at the sides bends every wall, so that a chain of motions
+    // turns too far.
+    SlamSettings once = accurate_slam();
+    once.look_ahead = false;
+    const auto source = walk(0.015);
+    const Reconstruction chain =
+        reconstruct_recording(source, first_pass_of(once), PoseSource::tracked, to_the_end);
+    const Reconstruction result =
+        reconstruct_recording(source, accurate_slam(), PoseSource::tracked, to_the_end);
+    const double before = gap(poses_of(chain)), after = gap(poses_of(result));
+    RecordProperty("gap_before_mm", int(1000 * before));
+    RecordProperty("gap_after_mm", int(1000 * after));
+    RecordProperty("ate_before_mm", int(1000 * absolute_error(poses_of(chain), true_path()).rms));
+    RecordProperty("ate_after_mm", int(1000 * absolute_error(poses_of(result), true_path()).rms));
+    EXPECT_GT(before, 0.03);  // else there is nothing to close
+    EXPECT_FALSE(result.loops.empty());
+    EXPECT_LT(after, before / 3);
+    EXPECT_LT(absolute_error(poses_of(result), true_path()).rms,
+              absolute_error(poses_of(chain), true_path()).rms);
+}
+
+TEST(ReconstructRecording, WithoutDriftThereIsNothingToClose) {
+    const Reconstruction result =
+        reconstruct_recording(walk(0), accurate_slam(), PoseSource::tracked, to_the_end);
+    for (const ReconstructedFrame& frame : result.frames)
+        EXPECT_EQ(frame.tracking.status, TrackingStatus::tracked) << frame.number;
+    // Voxels of 8 mm, and noise of 3 to 8 mm that averages out over thousands of points.
+    EXPECT_LT(absolute_error(poses_of(result), true_path()).rms, 0.01);
+}
+
+TEST(ReconstructRecording, ACoveredLensLosesItsFramesAlone) {
+    constexpr int shown = 60;
+    const FrameSource source{shown, [](int i) {
+                                 RgbdFrame frame = walk(0).load(i);
+                                 if (i >= 25 && i < 35)
+                                     frame.depth.pixels.assign(frame.depth.pixels.size(), 0.0f);
+                                 return frame;
+                             }};
+    const Reconstruction result =
+        reconstruct_recording(source, accurate_slam(), PoseSource::tracked, to_the_end);
+    for (int i = 0; i < shown; ++i) {
+        const ReconstructedFrame& frame = result.frames[std::size_t(i)];
+        const bool covered = i >= 25 && i < 35;
+        EXPECT_EQ(frame.tracking.status == TrackingStatus::lost, covered) << i;
+        EXPECT_EQ(frame.fused_at.has_value(), !covered) << i;
+        EXPECT_EQ(frame.tracking.why.empty(), !covered) << i;
+        if (covered) continue;
+        const Pose off = inverse(true_path()[std::size_t(i)]) * frame.tracking.world_from_camera;
+        EXPECT_LT(glm::length(off.translation), 0.02) << i;
+    }
+}
+
+TEST(ReconstructRecording, StopsWhenItIsTold) {
+    int asked = 0;
+    const Reconstruction result = reconstruct_recording(
+        walk(0), accurate_slam(), PoseSource::tracked, [&](int) { return ++asked < 4; });
+    EXPECT_FALSE(result.complete);
+    EXPECT_EQ(result.frames.size(), 4U);
+}
+
+TEST(ReconstructRecording, RecordedPosesAreTakenAsTheyAre) {
+    const FrameSource source{12, [](int i) {
+                                 RgbdFrame frame = walk(0).load(i);
+                                 frame.recorded_world_from_camera = true_path()[std::size_t(i)];
+                                 if (i == 5) frame.recorded_world_from_camera.reset();
+                                 return frame;
+                             }};
+    const Reconstruction result =
+        reconstruct_recording(source, accurate_slam(), PoseSource::recorded, to_the_end);
+    for (int i = 0; i < 12; ++i) {
+        const ReconstructedFrame& frame = result.frames[std::size_t(i)];
+        EXPECT_EQ(frame.tracking.status == TrackingStatus::lost, i == 5);
+        if (i == 5) continue;
+        EXPECT_EQ(frame.tracking.world_from_camera.translation,
+                  true_path()[std::size_t(i)].translation);
+    }
+}
+
+}  // namespace
+}  // namespace inlay
