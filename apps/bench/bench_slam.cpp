@@ -114,15 +114,15 @@ int run(int count, char** arguments) {
     const int most = count > 2 ? std::atoi(arguments[2]) : int(recording.info.frames.size());
     const bool fast = count > 3 && std::string(arguments[3]) == "fast";
     const SlamSettings settings = fast ? fast_slam() : accurate_slam();
-    const std::vector<int>& numbers = recording.info.frames;
     double decoding = 0;
     RgbdFrame frame;
-    const FrameSource source{std::min(most, int(numbers.size())), [&](int i) {
-                                 const double before = cpu_ms();
-                                 frame = recording.load(numbers[std::size_t(i)]);
-                                 decoding += cpu_ms() - before;
-                                 return frame;
-                             }};
+    FrameSource source{recording.info.frames, recording.info.times, [&](int i) {
+                           const double before = cpu_ms();
+                           frame = recording.load(recording.info.frames[std::size_t(i)]);
+                           decoding += cpu_ms() - before;
+                           return frame;
+                       }};
+    source.numbers.resize(std::size_t(std::min(most, source.count())));
     const double before = cpu_ms();
     const Reconstruction result =
         reconstruct_recording(source, settings, PoseSource::tracked, [](int) { return true; });
@@ -131,7 +131,7 @@ int run(int count, char** arguments) {
     Trajectory poses;
     int lost = 0, judged = 0;
     double covered = 0, filled = 0, angle = 0;
-    for (int i = 0; i < source.count; ++i) {
+    for (int i = 0; i < source.count(); ++i) {
         const ReconstructedFrame& f = result.frames[std::size_t(i)];
         lost += f.tracking.status == TrackingStatus::lost;
         poses.poses.push_back(
@@ -146,7 +146,7 @@ int run(int count, char** arguments) {
         ++judged;
     }
     std::printf("%d frames, %d lost: %.1f ms of processor time a frame, %zu bricks, peak %.0f MB\n",
-                source.count, lost, spent / source.count, result.volume.bricks.size(), peak);
+                source.count(), lost, spent / source.count(), result.volume.bricks.size(), peak);
     std::printf("%zu keyframes, %zu loops\n", result.keyframes.size(), result.loops.size());
     if (judged > 0)
         std::printf("frames 20 to 60: %.2f %% covered, %.2f %% filled, normals %.2f degrees\n",

@@ -43,6 +43,7 @@ struct Chosen {
     int tracked = 0, weak = 0, lost = 0;
     std::size_t vertices = 0, triangles = 0;
     std::optional<ColorRegistration> registration;
+    std::string unreadable;  // what is wrong with the first frame that cannot be read
     bool interrupted = false;
 };
 
@@ -50,6 +51,7 @@ struct Chosen {
 void note(Chosen& chosen, const ReconstructedFrame& frame, std::int64_t first_time_ns) {
     const auto time_ns = first_time_ns + std::int64_t(std::llround(frame.time * 1e9));
     chosen.trajectory.poses.push_back({time_ns, {frame.tracking.world_from_camera, ""}});
+    if (!frame.readable && chosen.unreadable.empty()) chosen.unreadable = frame.tracking.why;
     chosen.status_lines += status_json(frame).dump() + "\n";
     chosen.tracked += frame.tracking.status == TrackingStatus::tracked;
     chosen.weak += frame.tracking.status == TrackingStatus::weak;
@@ -62,12 +64,12 @@ Reconstruction reconstruct(const Recording& recording, const FrameList& frames,
                            const Settings& settings, bool quiet) {
     FrameSource source = frames_of(recording);
     const int last = select_frames(frames, recording.info.frames).back();
-    if (!settings.slam.look_ahead)
-        source.count =
-            int(std::upper_bound(recording.info.frames.begin(), recording.info.frames.end(), last) -
-                recording.info.frames.begin());
+    if (!settings.slam.look_ahead) {
+        const auto end = std::upper_bound(source.numbers.begin(), source.numbers.end(), last);
+        source.numbers.erase(end, source.numbers.end());
+    }
     const int passes = settings.slam.look_ahead ? passes_at_most : 1;
-    Progress progress("reconstructing", passes * source.count, quiet);
+    Progress progress("reconstructing", passes * source.count(), quiet);
     int done = 0;
     const auto go_on = [&](int) {
         progress.advance_to(++done);
@@ -146,6 +148,7 @@ int run(const ReconstructOptions& options) {
         write_all(options.out, reconstruct(recording, chosen, settings, options.common.quiet),
                   chosen, recording.info.first_time_ns);
     report(options, result);
+    require(result.unreadable.empty(), result.unreadable);
     return int(result.interrupted ? ExitCode::interrupted : ExitCode::done);
 }
 

@@ -82,7 +82,7 @@ void keep_frames(const fs::path& file, const std::string& key, const Reconstruct
 }  // namespace
 
 FrameSource frames_of(const Recording& recording) {
-    return {int(recording.info.frames.size()),
+    return {recording.info.frames, recording.info.times,
             [&recording](int i) { return recording.load(recording.info.frames[std::size_t(i)]); }};
 }
 

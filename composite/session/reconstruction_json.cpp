@@ -87,7 +87,9 @@ Json to_json(const Reconstruction& r) {
                           {"inlier_share", t.inlier_share},
                           {"rms_residual_m", t.rms_residual},
                           {"iterations", t.iterations},
-                          {"overlap", t.overlap}});
+                          {"overlap", t.overlap},
+                          {"why", t.why},
+                          {"readable", f.readable}});
         if (f.fused_at) frames.back()["fused_at"] = rows_of(*f.fused_at);
     }
     Json loops = Json::array();

@@ -48,17 +48,26 @@ PoseEdge edge_of(int from, int to, const Pose& motion, std::span<const LoopView>
     return edge;
 }
 
-std::optional<PoseEdge> try_loop(int from, int to, std::span<const LoopView> views,
-                                 const TrackSettings& settings) {
-    const LoopView &a = views[std::size_t(from)], &b = views[std::size_t(to)];
+TrackSettings of_views(TrackSettings settings) {
+    settings.levels = levels;
+    return settings;
+}
+
+/// Whether two views may show the same surfaces from where they stand.
+bool may_meet(const LoopView& a, const LoopView& b) {
     const Pose expected = inverse(a.world_from_camera) * b.world_from_camera;
-    const IcpSystem before = icp_system(b.pyramid.back(), a.pyramid.front(), expected, wide);
-    if (float(before.pairs) < least_overlap * float(before.observed) || before.pairs == 0)
-        return std::nullopt;
+    const IcpSystem pairs = icp_system(b.pyramid.back(), a.pyramid.front(), expected, wide);
+    return pairs.pairs > 0 && float(pairs.pairs) >= least_overlap * float(pairs.observed);
+}
+
+/// The motion between two views, found from starts of the second, if the one shows enough of the
+/// other and fits it.
+std::optional<PoseEdge> try_pair(int from, int to, std::span<const LoopView> views,
+                                 std::span<const Pose> starts, const TrackSettings& settings) {
+    const LoopView &a = views[std::size_t(from)], &b = views[std::size_t(to)];
     SurfaceMap model = a.pyramid.front();
     model.world_from_camera = a.world_from_camera;
-    const Pose start = b.world_from_camera;
-    const TrackResult found = track_frame(b.pyramid, model, std::span(&start, 1), settings);
+    const TrackResult found = track_frame(b.pyramid, model, starts, settings);
     if (found.status != TrackingStatus::tracked || found.overlap < least_overlap ||
         found.inlier_share < least_inliers) {
         return std::nullopt;
@@ -75,22 +84,28 @@ LoopView make_loop_view(const SurfaceMap& seen, const Pose& world_from_camera) {
     return view;
 }
 
-std::vector<PoseEdge> chain_edges(std::span<const LoopView> views) {
+std::vector<PoseEdge> chain_edges(std::span<const LoopView> views, const TrackSettings& settings) {
     std::vector<PoseEdge> edges;
-    for (std::size_t i = 1; i < views.size(); ++i) {
-        const Pose motion = inverse(views[i - 1].world_from_camera) * views[i].world_from_camera;
-        edges.push_back(edge_of(int(i) - 1, int(i), motion, views));
+    for (int i = 1; i < int(views.size()); ++i) {
+        const Pose &before = views[std::size_t(i) - 1].world_from_camera,
+                   &now = views[std::size_t(i)].world_from_camera;
+        std::vector<Pose> starts{now};
+        if (!edges.empty()) starts.push_back(before * edges.back().motion);  // gone on as before
+        const auto found = try_pair(i - 1, i, views, starts, of_views(settings));
+        edges.push_back(found ? *found : edge_of(i - 1, i, inverse(before) * now, views));
     }
     return edges;
 }
 
 std::vector<PoseEdge> find_loops(std::span<const LoopView> views, const TrackSettings& settings) {
-    TrackSettings loop = settings;
-    loop.levels = levels;
     std::vector<PoseEdge> edges;
     for (int to = apart; to < int(views.size()); ++to) {
+        const LoopView& second = views[std::size_t(to)];
         for (int from = 0; from + apart <= to; ++from) {
-            if (auto edge = try_loop(from, to, views, loop)) edges.push_back(*edge);
+            if (!may_meet(views[std::size_t(from)], second)) continue;
+            const auto edge = try_pair(from, to, views, std::span(&second.world_from_camera, 1),
+                                       of_views(settings));
+            if (edge) edges.push_back(*edge);
         }
     }
     return edges;

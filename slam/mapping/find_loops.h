@@ -19,8 +19,10 @@ struct LoopView {
 /// A view for loops from what a frame saw, at about 160 px across.
 LoopView make_loop_view(const SurfaceMap& seen, const Pose& world_from_camera);
 
-/// The motions from each view to the next, as the poses have them.
-std::vector<PoseEdge> chain_edges(std::span<const LoopView> views);
+/// The motions from each view to the next, found by ICP of the one with the other; as the poses
+/// have them where that fails. They know nothing of a camera that was drawn back, at a loop's end,
+/// to a part of the model from which it had drifted away.
+std::vector<PoseEdge> chain_edges(std::span<const LoopView> views, const TrackSettings& settings);
 
 /// Motions between views that are not neighbours but show the same surfaces from where they stand,
 /// found by ICP of the one with the other.

@@ -1,5 +1,6 @@
 #include "slam/mapping/reconstruct_recording.h"
 
+#include "recordings/base/check.h"
 #include "slam/mapping/advance_slam.h"
 #include "slam/mapping/color_camera.h"
 #include "slam/mapping/find_loops.h"
@@ -14,8 +15,10 @@
 namespace inlay {
 namespace {
 
-constexpr double drift_distance = 0.03;  // m, less is left to the depth sensor's own bends
-constexpr double drift_angle = 0.03;     // rad
+constexpr double keyframe_distance = 0.25;  // m, from a keyframe to the next
+constexpr double keyframe_angle = 0.2;      // rad
+constexpr double drift_distance = 0.03;     // m, less is left to the depth sensor's own bends
+constexpr double drift_angle = 0.03;        // rad
 
 bool is_lost(const ReconstructedFrame& frame) {
     return frame.tracking.status == TrackingStatus::lost;
@@ -38,16 +41,41 @@ TrackResult track_next(SlamState& state, const RgbdFrame& frame, const SlamSetti
     return lost;
 }
 
+/// Whether a view is far enough from the last keyframe to be the next.
+bool shows_more(const std::vector<LoopView>& views, const Pose& world_from_camera) {
+    if (views.empty()) return true;
+    const Pose& last = views.back().world_from_camera;
+    return glm::length(last.translation - world_from_camera.translation) > keyframe_distance ||
+           rotation_angle(last, world_from_camera) > keyframe_angle;
+}
+
+/// Tracks the next frame; one that cannot be read stays where the camera was.
+ReconstructedFrame first_look(SlamState& state, const FrameSource& source, int position,
+                              const SlamSettings& settings, PoseSource poses) {
+    ReconstructedFrame result;
+    result.number = source.numbers[std::size_t(position)];
+    result.time = source.times[std::size_t(position)];
+    try {
+        result.tracking = track_next(state, source.load(position), settings, poses);
+    } catch (const Error& error) {
+        result.readable = false;
+        result.tracking = TrackResult{};
+        result.tracking.why = error.what();
+        if (state.model) result.tracking.world_from_camera = state.model->world_from_camera;
+    }
+    return result;
+}
+
 FirstPass first_pass(const FrameSource& source, const SlamSettings& settings, PoseSource poses,
                      const GoOn& go_on) {
     FirstPass pass;
     SlamState state = start_slam(settings);
     pass.result.complete = true;
-    for (int i = 0; i < source.count && pass.result.complete; ++i) {
-        const RgbdFrame frame = source.load(i);
-        const TrackResult tracking = track_next(state, frame, settings, poses);
-        pass.result.frames.push_back({frame.index, frame.time, tracking, std::nullopt});
-        if (state.keyframes.size() > pass.result.keyframes.size()) {
+    for (int i = 0; i < source.count() && pass.result.complete; ++i) {
+        pass.result.frames.push_back(first_look(state, source, i, settings, poses));
+        const TrackResult& tracking = pass.result.frames.back().tracking;
+        if (tracking.status != TrackingStatus::lost &&
+            shows_more(pass.views, tracking.world_from_camera)) {
             pass.result.keyframes.push_back(i);
             pass.views.push_back(make_loop_view(*state.seen, tracking.world_from_camera));
         }
@@ -80,13 +108,14 @@ void follow_keyframes(Reconstruction& result, const std::vector<Pose>& moves) {
 /// own bends explain, tracking against the model knows better.
 void close_loops(FirstPass& pass, const TrackSettings& settings) {
     std::vector<PoseEdge> loops = find_loops(pass.views, settings);
-    const bool drifted = std::any_of(loops.begin(), loops.end(), [&](const PoseEdge& edge) {
+    if (loops.empty()) return;
+    std::vector<PoseEdge> edges = chain_edges(pass.views, settings);
+    edges.insert(edges.end(), loops.begin(), loops.end());
+    const bool drifted = std::any_of(edges.begin(), edges.end(), [&](const PoseEdge& edge) {
         const LoopError error = loop_error(edge, pass.views);
         return error.distance > drift_distance || error.angle > drift_angle;
     });
     if (!drifted) return;
-    std::vector<PoseEdge> edges = chain_edges(pass.views);
-    edges.insert(edges.end(), loops.begin(), loops.end());
     std::vector<Pose> poses;
     for (const LoopView& view : pass.views)
         poses.push_back(view.world_from_camera);
@@ -136,8 +165,11 @@ bool second_pass(Reconstruction& result, const FrameSource& source, const SlamSe
                  const GoOn& go_on) {
     const Reconstruction& before = result;
     std::vector<TrackResult> after;
-    for (int i = 0; i < source.count; ++i) {
-        after.push_back(track_again(before, std::size_t(i), source.load(i), settings));
+    for (int i = 0; i < source.count(); ++i) {
+        const ReconstructedFrame& frame = before.frames[std::size_t(i)];
+        after.push_back(frame.readable
+                            ? track_again(before, std::size_t(i), source.load(i), settings)
+                            : frame.tracking);
         if (!go_on(i + 1)) return false;
     }
     for (std::size_t i = 0; i < after.size(); ++i)

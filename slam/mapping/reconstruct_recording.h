@@ -13,10 +13,13 @@
 
 namespace inlay {
 
-/// A recording's frames, in order; each is asked for up to three times.
+/// A recording's frames, in order; each is loaded up to four times.
 struct FrameSource {
-    int count = 0;
-    std::function<RgbdFrame(int)> load;  // 0 .. count - 1
+    std::vector<int> numbers;                     // the recording's own
+    std::vector<double> times;                    // s
+    std::function<RgbdFrame(int position)> load;  // throws Error for a frame that cannot be read
+
+    int count() const { return int(numbers.size()); }
 };
 
 /// What became of one frame.
@@ -25,6 +28,7 @@ struct ReconstructedFrame {
     double time = 0;  // s
     TrackResult tracking;
     std::optional<Pose> fused_at;  // world_from_camera; empty: it is not in the model
+    bool readable = true;          // false: lost, and tracking.why says what is wrong with it
 };
 
 struct Reconstruction {
@@ -51,7 +55,7 @@ using GoOn = std::function<bool(int frames)>;
 /// against that: so early frames see what later ones found out, and lost ones may be found. How the
 /// color images lie to the depth images is estimated before the second fusion, which heeds it. With
 /// recorded poses, frames that have none are lost. Same bytes for any number of threads.
-/// Throws Error as track_and_fuse().
+/// Frames that cannot be read are lost. Throws Error for settings out of range.
 Reconstruction reconstruct_recording(const FrameSource& source, const SlamSettings& settings,
                                      PoseSource poses, const GoOn& go_on);
 

@@ -31,12 +31,12 @@ std::vector<Pose> true_path() {
 }
 
 FrameSource walk(double bend) {
-    return {frames, [bend](int i) {
-                RgbdFrame frame =
-                    test::wall_frame(i, test::around_the_room(double(i) / around), 1, bend);
-                if (i == 0) frame.recorded_world_from_camera = test::around_the_room(0);
-                return frame;
-            }};
+    return test::frames_from(frames, [bend](int i) {
+        const Pose pose = test::around_the_room(double(i) / around);
+        RgbdFrame frame = test::wall_frame(i, pose, 1, bend);
+        if (i == 0) frame.recorded_world_from_camera = pose;
+        return frame;
+    });
 }
 
 /// How far (m) the motion from the first view to the one a turn later is from the true one.
@@ -48,11 +48,11 @@ double gap(const std::vector<Pose>& poses) {
 }
 
 TEST(ReconstructRecording, ALoopAlongFourWallsCloses) {
-    // Depth that is 1.5 % too large at the sides bends every wall, so that a chain of motions
+    // Depth that is 0.1 % too large at the sides bends every wall, so that a chain of motions
     // turns too far.
     SlamSettings once = accurate_slam();
     once.look_ahead = false;
-    const auto source = walk(0.015);
+    const auto source = walk(0.001);
     const Reconstruction chain =
         reconstruct_recording(source, first_pass_of(once), PoseSource::tracked, to_the_end);
     const Reconstruction result =
@@ -80,12 +80,11 @@ TEST(ReconstructRecording, WithoutDriftThereIsNothingToClose) {
 
 TEST(ReconstructRecording, ACoveredLensLosesItsFramesAlone) {
     constexpr int shown = 60;
-    const FrameSource source{shown, [](int i) {
-                                 RgbdFrame frame = walk(0).load(i);
-                                 if (i >= 25 && i < 35)
-                                     frame.depth.pixels.assign(frame.depth.pixels.size(), 0.0f);
-                                 return frame;
-                             }};
+    const FrameSource source = test::frames_from(shown, [](int i) {
+        RgbdFrame frame = walk(0).load(i);
+        if (i >= 25 && i < 35) frame.depth.pixels.assign(frame.depth.pixels.size(), 0.0f);
+        return frame;
+    });
     const Reconstruction result =
         reconstruct_recording(source, accurate_slam(), PoseSource::tracked, to_the_end);
     for (int i = 0; i < shown; ++i) {
@@ -109,12 +108,12 @@ TEST(ReconstructRecording, StopsWhenItIsTold) {
 }
 
 TEST(ReconstructRecording, RecordedPosesAreTakenAsTheyAre) {
-    const FrameSource source{12, [](int i) {
-                                 RgbdFrame frame = walk(0).load(i);
-                                 frame.recorded_world_from_camera = true_path()[std::size_t(i)];
-                                 if (i == 5) frame.recorded_world_from_camera.reset();
-                                 return frame;
-                             }};
+    const FrameSource source = test::frames_from(12, [](int i) {
+        RgbdFrame frame = walk(0).load(i);
+        frame.recorded_world_from_camera = true_path()[std::size_t(i)];
+        if (i == 5) frame.recorded_world_from_camera.reset();
+        return frame;
+    });
     const Reconstruction result =
         reconstruct_recording(source, accurate_slam(), PoseSource::recorded, to_the_end);
     for (int i = 0; i < 12; ++i) {

@@ -174,7 +174,7 @@ TEST(Resume, NamesWhatDiffers) {
     };
     expect_refused("--max-depth 3", "recording max_depth_m was 0.0 and is 3.0");
     expect_refused("--poses recorded", "settings slam.poses was \"tracked\" and is \"recorded\"");
-    expect_refused("--slam fast", "settings slam.depth.smoothing_radius was \"3\" and is \"2\"");
+    expect_refused("--slam fast", "settings slam.half_resolution was \"off\" and is \"on\"");
     const auto expect_refused_when_changed = [&](const fs::path& file, const std::string& text,
                                                  const std::string& what) {
         const std::string before = test::file_text(file);

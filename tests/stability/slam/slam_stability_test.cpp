@@ -207,7 +207,8 @@ bool same_bricks(const std::vector<Brick>& a, const std::vector<Brick>& b) {
 }
 
 TEST(SlamThreads, AReconstructionIsTheSameForOneAndThreeThreads) {
-    const FrameSource source{10, [](int i) { return test::room_frame(i, swaying(i), 1); }};
+    const FrameSource source =
+        test::frames_from(10, [](int i) { return test::room_frame(i, swaying(i), 1); });
     const auto run = [&](int threads) {
         set_thread_count(threads);
         Reconstruction result = reconstruct_recording(source, accurate_slam(), PoseSource::tracked,

@@ -6,12 +6,15 @@
 #include "recordings/base/pose.h"
 #include "recordings/base/random.h"
 #include "recordings/base/rgbd_frame.h"
+#include "slam/mapping/reconstruct_recording.h"
 
 #include <glm/glm.hpp>
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
 
 namespace inlay::test {
 
@@ -88,6 +91,16 @@ inline RgbdFrame room_frame(int index, const Pose& world_from_camera, float nois
         z += noise * 1.732f * sum * (0.0012f + 0.0019f * (z - 0.4f) * (z - 0.4f));
     }
     return frame;
+}
+
+/// Frames 0 to `count` - 1, 30 a second.
+inline FrameSource frames_from(int count, std::function<RgbdFrame(int)> load) {
+    FrameSource source{{}, {}, std::move(load)};
+    for (int i = 0; i < count; ++i) {
+        source.numbers.push_back(i);
+        source.times.push_back(i / 30.0);
+    }
+    return source;
 }
 
 /// A pose turned by small angles (rad) about x, y, z of the camera, and moved (m).

@@ -15,11 +15,11 @@ constexpr double half_room = 2.5;  // m
 /// Balls half sunk into the walls, no two alike, so that a view tells where it is.
 inline std::vector<Ball> knobs() {
     std::vector<Ball> result;
-    for (std::uint32_t i = 0; i < 48; ++i) {
+    for (std::uint32_t i = 0; i < 160; ++i) {
         const SampleKey key{11, 0, i, 0};
         const double along = (2 * double(uniform(key, 0)) - 1) * half_room;
         const double height = (2 * double(uniform(key, 1)) - 1) * 1.0;
-        const double radius = 0.12 + 0.25 * double(uniform(key, 2));
+        const double radius = 0.1 + 0.2 * double(uniform(key, 2));
         const double wall = i % 2 == 0 ? half_room : -half_room;
         result.push_back(
             {i % 4 < 2 ? glm::dvec3(along, height, wall) : glm::dvec3(wall, height, along),
@@ -36,14 +36,14 @@ inline Pose around_the_room(double share) {
 }
 
 inline double hit_room(const glm::dvec3& eye, const glm::dvec3& ray,
-                       const std::vector<Ball>& balls) {
+                       const std::vector<Ball>& in_it) {
     double nearest = std::numeric_limits<double>::max();
     for (int axis = 0; axis < 3; ++axis) {
         const double wall = axis == 1 ? 1.3 : half_room;
         if (ray[axis] == 0) continue;
         nearest = std::min(nearest, ((ray[axis] > 0 ? wall : -wall) - eye[axis]) / ray[axis]);
     }
-    for (const Ball& ball : balls) {
+    for (const Ball& ball : in_it) {
         const glm::dvec3 from = eye - ball.centre;
         const double a = glm::dot(ray, ray), b = glm::dot(from, ray);
         const double d = b * b - a * (glm::dot(from, from) - ball.radius * ball.radius);
@@ -55,13 +55,13 @@ inline double hit_room(const glm::dvec3& eye, const glm::dvec3& ray,
 /// A frame from there; `noise` is a factor on the depth noise of a structured-light camera, `bend`
 /// the share by which depth is wrong at the image's left and right edges.
 inline RgbdFrame wall_frame(int index, const Pose& world_from_camera, float noise, double bend) {
-    static const std::vector<Ball> balls = knobs();
+    static const std::vector<Ball> on_walls = knobs();
     const Lens lens = small_lens();
     RgbdFrame frame{index, index / 30.0, lens, {}, Image<float>(lens.width, lens.height), {}};
     parallel_rows(lens.height, [&](int y) {
         for (int x = 0; x < lens.width; ++x) {
             const glm::dvec3 ray = world_from_camera.rotation * unproject(lens, {x, y});
-            const double z = hit_room(world_from_camera.translation, ray, balls);
+            const double z = hit_room(world_from_camera.translation, ray, on_walls);
             const double side = 2.0 * x / lens.width - 1;
             const SampleKey key{7, std::uint32_t(index), std::uint32_t(y * lens.width + x), 0};
             double sum = -2;  // four uniform numbers: variance 1/3, near enough to a Gaussian
