@@ -89,6 +89,8 @@ Chosen write_all(const fs::path& folder, const Reconstruction& result, const Fra
     chosen.triangles = mesh.triangles.size();
     chosen.interrupted = !result.complete;
     chosen.registration = result.registration;
+    if (const std::string full = full_model_text(result.volume); !full.empty())
+        spdlog::warn("{}", full);
     write_tum_trajectory(folder / "poses.txt", chosen.trajectory);
     write_text(folder / "status.jsonl", chosen.status_lines);
     write_text(folder / "keyframes.json", keyframes_json(result).dump(2) + "\n");

@@ -33,7 +33,7 @@ struct ReplayOptions {
     RenderOptions render;
     GovernOptions govern;
     std::string scene, out, video, shard;
-    std::string slam = "accurate";
+    std::string slam;             // "" = by quality
     std::string poses, geometry;  // "" = by settings
     bool resume = false, explain = false;
 };
@@ -65,7 +65,8 @@ struct Totals {
 /// --set, which comes last, may still change what the other options chose.
 Settings settings_of(const ReplayOptions& o) {
     Settings chosen;
-    if (o.slam == "fast") chosen.slam = fast_slam();
+    if (o.slam == "fast" || (o.slam.empty() && o.render.quality == "draft"))
+        chosen.slam = fast_slam();
     if (!o.poses.empty()) apply_setting(chosen, "slam.poses=" + o.poses);
     if (!o.geometry.empty()) apply_setting(chosen, "geometry.kind=" + o.geometry);
     return settings_from(o.render, o.common, chosen);
@@ -280,6 +281,8 @@ int run(const ReplayOptions& o) {
         spdlog::warn("interrupted; finished frames stay, go on with --resume");
         return int(ExitCode::interrupted);
     }
+    const std::string full = full_model_text(volume_of(session));
+    if (!full.empty()) spdlog::warn("{}", full);
     if (!o.video.empty()) write_video(output, frames, o.video, rate_of(recording.info));
     if (o.render.report) write_report(output, recording, description);
     print_totals(o, totals);
@@ -297,11 +300,12 @@ std::function<int()> add_replay(CLI::App& subcommand) {
     subcommand.add_option("--scene", o->scene, "the scene file: objects and light");
     subcommand.add_option("--out", o->out, "the folder to write");
     subcommand
-        .add_option("--slam", o->slam,
-                    "fast: a model that grows from frame to frame; accurate: the "
-                    "whole recording is reconstructed first, once, and kept for later runs")
-        ->check(CLI::IsMember({"fast", "accurate"}))
-        ->capture_default_str();
+        .add_option(
+            "--slam", o->slam,
+            "fast: a model that grows from frame to frame; accurate: the "
+            "whole recording is reconstructed first, once, and kept for later runs; draft quality "
+            "is fast, the others accurate")
+        ->check(CLI::IsMember({"fast", "accurate"}));
     subcommand
         .add_option("--poses", o->poses,
                     "tracked (default), or recorded: a frame without a usable recorded pose is "

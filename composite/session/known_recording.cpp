@@ -111,6 +111,14 @@ std::shared_ptr<const Reconstruction> reconstruct_afresh(const Recording& record
         reconstruct_recording(frames_of(recording), settings.slam, poses, go_on));
 }
 
+std::string full_model_text(const VoxelVolume& volume) {
+    if (volume.refused == 0) return "";
+    return fmt::format(
+        "the model is full at {} MB: {} times a place found no room in it; allow more by --set "
+        "slam.fusion.memory=MB, or take larger voxels",
+        volume.bricks.size() * sizeof(Brick) >> 20, volume.refused);
+}
+
 int position_of(const Reconstruction& known, int number) {
     const auto frame =
         std::find_if(known.frames.begin(), known.frames.end(),

@@ -6,6 +6,7 @@
 #include "slam/mapping/reconstruct_recording.h"
 
 #include <memory>
+#include <string>
 
 namespace inlay {
 
@@ -24,6 +25,9 @@ std::shared_ptr<const Reconstruction> know_recording(
 std::shared_ptr<const Reconstruction> reconstruct_afresh(
     const Recording& recording, const Settings& settings,
     const GoOn& go_on = [](int) { return true; });
+
+/// What to say of a model that had no room for all that was seen; empty where it had.
+std::string full_model_text(const VoxelVolume& volume);
 
 /// The position of the frame with the recording's `number`; -1 where it has none.
 int position_of(const Reconstruction& known, int number);

@@ -20,11 +20,11 @@ LightDemand demand_of(const Settings& settings, const NoisyLayers* previous) {
     };
 }
 
+}  // namespace
+
 const VoxelVolume& volume_of(const Session& session) {
     return session.known ? session.known->volume : session.slam.volume;
 }
-
-}  // namespace
 
 Session start_session(const Settings& settings, VirtualScene scene, EnvironmentMap environment,
                       std::shared_ptr<const Reconstruction> known) {

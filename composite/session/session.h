@@ -37,6 +37,9 @@ struct Session {
 Session start_session(const Settings& settings, VirtualScene scene, EnvironmentMap environment,
                       std::shared_ptr<const Reconstruction> known = nullptr);
 
+/// The model that frames are composited on.
+const VoxelVolume& volume_of(const Session& session);
+
 /// How many frames the model of the next one has seen; a finished model does not grow.
 inline int model_age(const Session& session) { return session.known ? 0 : session.frames_seen; }
 

@@ -22,6 +22,7 @@ std::vector<SettingRow> slam_rows() {
         row("slam.fusion.max_weight", "observations", INLAY_MEMBER(slam.fusion.max_weight)),
         row("slam.fusion.full_weight_z", "m", INLAY_MEMBER(slam.fusion.full_weight_z)),
         row("slam.fusion.least_cosine", "1", INLAY_MEMBER(slam.fusion.least_cosine)),
+        row("slam.fusion.memory", "MB", INLAY_MEMBER(slam.fusion.memory)),
         row("slam.raycast.nearest", "m", INLAY_MEMBER(slam.raycast.nearest)),
         row("slam.raycast.farthest", "m", INLAY_MEMBER(slam.raycast.farthest)),
         row("slam.raycast.least_weight", "observations", INLAY_MEMBER(slam.raycast.least_weight)),

@@ -78,7 +78,11 @@ void allocate_bricks(VoxelVolume& volume, const SurfaceMap& surface) {
     });
     for (const BrickList& row : rows) {
         for (const glm::ivec3& key : row.keys) {
-            if (indexable(key)) ensure_brick(volume, key);
+            if (!indexable(key) || volume.index.find(key) != BrickIndex::absent) continue;
+            if (volume.bricks.size() < volume.most_bricks)
+                ensure_brick(volume, key);
+            else
+                ++volume.refused;
         }
     }
 }

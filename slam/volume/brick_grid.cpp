@@ -26,7 +26,7 @@ Ints whole(const Floats& x) { return stdx::static_simd_cast<Ints>(x); }
 BrickGrid::BrickGrid(const VoxelVolume& volume, std::span<const int> bricks) {
     glm::ivec3 lowest(0), highest(-1);
     for (std::size_t i = 0; i < bricks.size(); ++i) {
-        const glm::ivec3& key = volume.bricks[std::size_t(bricks[i])].key;
+        const glm::ivec3& key = volume.keys[std::size_t(bricks[i])];
         lowest = i == 0 ? key : glm::min(lowest, key);
         highest = i == 0 ? key : glm::max(highest, key);
     }

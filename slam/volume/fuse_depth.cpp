@@ -6,6 +6,7 @@
 #include "slam/depth/camera_view.h"
 #include "slam/depth/surface_from_depth.h"
 #include "slam/volume/allocate_bricks.h"
+#include "slam/volume/bricks_in_view.h"
 
 #include <algorithm>
 #include <cmath>
@@ -133,20 +134,6 @@ void fold_brick(Brick& brick, float voxel_size, const Observation& seen, float t
     }
 }
 
-/// Numbers of the bricks that the camera may see.
-std::vector<int> bricks_in_view(const VoxelVolume& volume, const Observation& seen) {
-    const float radius = volume.voxel_size * float(brick_side) * 0.87f;  // half a brick's diagonal
-    std::vector<int> numbers;
-    int number = 0;
-    for (const Brick& brick : volume.bricks) {
-        const glm::vec3 centre = (glm::vec3(brick.key * brick_side) + 3.5f) * volume.voxel_size;
-        if (seen.view.may_see(seen.camera_from_world * centre + seen.translation, radius))
-            numbers.push_back(number);
-        ++number;
-    }
-    return numbers;
-}
-
 }  // namespace
 
 void validate(const FusionSettings& s) {
@@ -157,6 +144,7 @@ void validate(const FusionSettings& s) {
     require(s.max_weight >= 1 && s.full_weight_z > 0,
             "slam.fusion.max_weight must be 1 or more and slam.fusion.full_weight_z above 0",
             ExitCode::usage);
+    require(s.memory >= 1, "slam.fusion.memory must be 1 MB or more", ExitCode::usage);
     require(s.least_cosine >= 0 && s.least_cosine < 1, "slam.fusion.least_cosine must be 0..1",
             ExitCode::usage);
 }
@@ -166,6 +154,7 @@ VoxelVolume make_volume(const FusionSettings& settings) {
     VoxelVolume volume;
     volume.voxel_size = settings.voxel_size;
     volume.truncation = settings.truncation;
+    volume.most_bricks = (std::size_t(settings.memory) << 20) / sizeof(Brick);
     return volume;
 }
 
@@ -176,7 +165,8 @@ void fuse_surface(VoxelVolume& volume, const SurfaceMap& surface, const SeenColo
             "the color image and its lens differ in size");
     const Observation seen = observe(surface, color, settings);
     allocate_bricks(volume, surface);
-    const std::vector<int> bricks = bricks_in_view(volume, seen);
+    const std::vector<int> bricks =
+        bricks_in_view(volume, seen.view, inverse(surface.world_from_camera), 0);
     parallel_for(int(bricks.size()), [&](int i) {
         fold_brick(volume.bricks[std::size_t(bricks[std::size_t(i)])], volume.voxel_size, seen,
                    volume.truncation, settings.max_weight);

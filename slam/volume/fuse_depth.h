@@ -16,6 +16,7 @@ struct FusionSettings {
     float max_weight = 128.0f;   // observations; beyond it the mean slides
     float full_weight_z = 1.0f;  // m; a measurement beyond it counts (this / z)^2
     float least_cosine = 0.15f;  // surfaces seen at a more grazing angle are not fused
+    int memory = 4096;           // MB that bricks may take; then the model takes in no new places
 };
 
 /// Throws Error that names the setting which is out of range.

@@ -1,5 +1,7 @@
 #include "slam/volume/ray_ranges.h"
 
+#include "slam/volume/bricks_in_view.h"
+
 #include <algorithm>
 
 namespace inlay {
@@ -16,14 +18,13 @@ struct Box {
 
 /// Bounds of a brick, grown by what a distance reads around a point, as (x/z, y/z) and z. A brick
 /// across the near plane bounds nothing: it may appear anywhere.
-Box bounds(const Brick& brick, float voxel_size, const Pose& camera_from_world, float nearest) {
+Box bounds(const glm::ivec3& key, float voxel_size, const Pose& camera_from_world, float nearest) {
     const glm::mat3 rotation(camera_from_world.rotation);
     const glm::vec3 translation(camera_from_world.translation);
     Box box;
     for (int c = 0; c < 8; ++c) {
         const glm::ivec3 corner(c & 1, (c >> 1) & 1, c >> 2);
-        const glm::vec3 voxel(brick.key * brick_side - reach +
-                              corner * (brick_side - 1 + 2 * reach));
+        const glm::vec3 voxel(key * brick_side - reach + corner * (brick_side - 1 + 2 * reach));
         const glm::vec3 p = rotation * (voxel * voxel_size) + translation;
         box.z.nearest = std::min(box.z.nearest, std::max(p.z, nearest));
         box.z.farthest = std::max(box.z.farthest, p.z);
@@ -72,16 +73,10 @@ RayRanges ray_ranges(const VoxelVolume& volume, const CameraView& view,
     ranges.lowest = view.lowest;
     ranges.cells_per_unit =
         glm::vec2(ranges.cells.width, ranges.cells.height) / (view.highest - view.lowest);
-    const float radius = volume.voxel_size * float(brick_side + 2 * gradient_reach) * 0.87f;
-    const glm::mat3 rotation(camera_from_world.rotation);
-    const glm::vec3 translation(camera_from_world.translation);
-    int number = 0;
-    for (const Brick& brick : volume.bricks) {
-        const int own = number++;
-        const glm::vec3 centre = (glm::vec3(brick.key * brick_side) + 3.5f) * volume.voxel_size;
-        if (!view.may_see(rotation * centre + translation, radius)) continue;
-        const Box box = bounds(brick, volume.voxel_size, camera_from_world, nearest);
-        ranges.bricks.push_back(own);
+    ranges.bricks = bricks_in_view(volume, view, camera_from_world, gradient_reach);
+    for (const int number : ranges.bricks) {
+        const Box box =
+            bounds(volume.keys[std::size_t(number)], volume.voxel_size, camera_from_world, nearest);
         if (box.z.farthest > nearest) mark(ranges, box);
     }
     return ranges;

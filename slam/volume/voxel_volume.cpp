@@ -13,6 +13,7 @@ int ensure_brick(VoxelVolume& volume, const glm::ivec3& key) {
     const int number = int(volume.bricks.size());
     volume.bricks.emplace_back();
     volume.bricks.back().key = key;
+    volume.keys.push_back(key);
     volume.index.insert(key, number);
     return number;
 }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <vector>
 
 namespace inlay {
 
@@ -36,10 +37,13 @@ struct Brick {
 /// The fused model. Voxel v has its centre at v * voxel_size (world, m). Bricks are numbered in the
 /// order in which they were allocated.
 struct VoxelVolume {
-    float voxel_size = 0.008f;  // m
-    float truncation = 0.032f;  // m, half-width of the signed-distance band
-    std::deque<Brick> bricks;   // addresses stay valid while it grows
+    float voxel_size = 0.008f;     // m
+    float truncation = 0.032f;     // m, half-width of the signed-distance band
+    std::deque<Brick> bricks;      // addresses stay valid while it grows
+    std::vector<glm::ivec3> keys;  // of all bricks, close together: going over them is fast
     BrickIndex index;
+    std::size_t most_bricks = 1 << 20;  // then it takes no more
+    std::size_t refused = 0;            // times that a brick found no room
 };
 
 inline glm::ivec3 brick_of(const glm::ivec3& voxel) {
@@ -53,7 +57,8 @@ inline int slot_in_brick(const glm::ivec3& voxel) {
 /// The brick at `key`, or null.
 const Brick* find_brick(const VoxelVolume& volume, const glm::ivec3& key);
 
-/// The number of the brick at `key`, which is allocated (empty) if it is not there.
+/// The number of the brick at `key`, which is allocated (empty) if it is not there, whatever
+/// `most_bricks` says.
 int ensure_brick(VoxelVolume& volume, const glm::ivec3& key);
 
 }  // namespace inlay

@@ -1,6 +1,7 @@
 // The default recording replayed against its truth: the same scene, path-traced with the objects
 // really in it.
 #include "composite/measure/image_error.h"
+#include "composite/session/known_recording.h"
 #include "composite/session/prepare_scene.h"
 #include "composite/session/session.h"
 #include "recordings/base/check.h"
@@ -54,10 +55,11 @@ std::vector<FrameError> replay(bool true_poses) {
     const Recording recording = open_recording(folder);
     Settings settings;
     settings.use_recorded_poses = true_poses;
+    const auto known = reconstruct_afresh(recording, settings);
     PreparedScene prepared =
-        prepare_scene(load_scene_file(folder / "scene.json"), recording, settings);
+        prepare_scene(load_scene_file(folder / "scene.json"), recording, settings, known.get());
     Session session =
-        start_session(settings, std::move(prepared.scene), std::move(prepared.environment));
+        start_session(settings, std::move(prepared.scene), std::move(prepared.environment), known);
     std::vector<FrameError> errors;
     for (const int number : recording.info.frames) {
         const bool has_truth =
