@@ -92,8 +92,7 @@ void time_stages(const VoxelVolume& model_volume, const Pose& pose, const RgbdFr
         pyramid.push_back(surface_from_depth(level.depth, level.lens, Pose{}, settings.depth));
     const SurfaceMap model = raycast_volume(model_volume, frame.lens, pose, settings.raycast);
     VoxelVolume volume = model_volume;
-    std::printf("stages on the last frame at full size, ms of processor time (%d threads' sum):\n",
-                2);
+    std::printf("stages on the last frame at full size, ms of processor time:\n");
     time_stage("clean_depth", [&] { clean_depth(frame.depth, settings.depth); });
     time_stage("smooth_depth", [&] { smooth_depth(clean, settings.depth); });
     time_stage("surface_from_depth",

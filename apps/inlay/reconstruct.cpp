@@ -60,8 +60,9 @@ void note(Chosen& chosen, const ReconstructedFrame& frame, std::int64_t first_ti
 
 /// The whole recording; without a look ahead only up to the last chosen frame, since later ones
 /// change nothing.
-Reconstruction reconstruct(const Recording& recording, const FrameList& frames,
-                           const Settings& settings, bool quiet) {
+std::shared_ptr<const Reconstruction> reconstruct(const Recording& recording,
+                                                  const FrameList& frames, const Settings& settings,
+                                                  bool quiet) {
     FrameSource source = frames_of(recording);
     const int last = select_frames(frames, recording.info.frames).back();
     if (!settings.slam.look_ahead) {
@@ -75,8 +76,9 @@ Reconstruction reconstruct(const Recording& recording, const FrameList& frames,
         progress.advance_to(++done);
         return !interrupted();
     };
-    if (settings.slam.look_ahead) return *know_recording(recording, settings, go_on);
-    return reconstruct_recording(source, settings.slam, PoseSource::tracked, go_on);
+    if (settings.slam.look_ahead) return know_recording(recording, settings, go_on);
+    return std::make_shared<const Reconstruction>(
+        reconstruct_recording(source, settings.slam, PoseSource::tracked, go_on));
 }
 
 Chosen write_all(const fs::path& folder, const Reconstruction& result, const FrameList& frames,
@@ -147,7 +149,7 @@ int run(const ReconstructOptions& options) {
     if (options.slam == "fast") settings.slam = fast_slam();
     settings.slam.register_color = options.registers;
     const Chosen result =
-        write_all(options.out, reconstruct(recording, chosen, settings, options.common.quiet),
+        write_all(options.out, *reconstruct(recording, chosen, settings, options.common.quiet),
                   chosen, recording.info.first_time_ns);
     report(options, result);
     require(result.unreadable.empty(), result.unreadable);

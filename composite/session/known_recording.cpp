@@ -31,7 +31,8 @@ std::string stamp_of(const fs::path& file) {
 
 std::string stamps_below(const fs::path& folder) {
     std::vector<std::string> stamps;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    const auto followed = fs::directory_options::follow_directory_symlink;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, followed))
         if (entry.is_regular_file()) stamps.push_back(stamp_of(entry.path()));
     std::sort(stamps.begin(), stamps.end());
     std::string text;
@@ -47,6 +48,13 @@ std::string key_of(const RecordingInfo& info, const Settings& settings) {
     text +=
         fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}\n", l.width, l.height, l.fx, l.fy, l.cx,
                     l.cy, l.k1, l.k2, l.k3, l.p1, l.p2, info.units_per_metre, info.max_depth);
+    text += info.profile + "\n";
+    for (std::size_t i = 0; i < info.frames.size(); ++i) {
+        const Pose pose = info.world_from_camera[i].value_or(Pose{});
+        text += fmt::format("{} {} {} {} {} {}\n", info.frames[i], info.times[i],
+                            pose.translation.x, pose.translation.y, pose.translation.z,
+                            glm::length(pose.rotation[0] + 2.0 * pose.rotation[1]));
+    }
     for (const SettingRow& row : setting_rows())
         if (row.name.starts_with("slam.")) text += row.name + "=" + row.get(settings) + "\n";
     return text;

@@ -67,6 +67,10 @@ ColorRegistration registration_from(const Json& json) {
     return r;
 }
 
+void require_place(int place, std::size_t count) {
+    require(place >= 0 && std::size_t(place) < count, "a place in a list that is shorter");
+}
+
 TrackingStatus status_from(const std::string& name) {
     for (const TrackingStatus status :
          {TrackingStatus::tracked, TrackingStatus::weak, TrackingStatus::lost})
@@ -112,16 +116,24 @@ Reconstruction reconstruction_from(const Json& json) {
         frame.tracking = {
             pose_from(f.at("world_from_camera")), status_from(f.at("status").get<std::string>()),
             f.at("inlier_share").get<float>(),    f.at("rms_residual_m").get<float>(),
-            f.at("iterations").get<int>(),        f.at("overlap").get<float>()};
+            f.at("iterations").get<int>(),        f.at("overlap").get<float>(),
+            f.at("why").get<std::string>()};
+        frame.readable = f.at("readable").get<bool>();
         if (f.contains("fused_at")) frame.fused_at = pose_from(f.at("fused_at"));
         r.frames.push_back(frame);
     }
     if (json.contains("registration")) r.registration = registration_from(json.at("registration"));
     r.keyframes = json.at("keyframes").get<std::vector<int>>();
+    for (const int position : r.keyframes)
+        require_place(position, r.frames.size());
     for (const Json& l : json.at("loops"))
         r.loops.push_back({l.at("from").get<int>(), l.at("to").get<int>(),
                            pose_from(l.at("motion")),
                            l.at("information").get<std::array<double, 21>>()});
+    for (const PoseEdge& loop : r.loops) {
+        require_place(loop.from, r.keyframes.size());
+        require_place(loop.to, r.keyframes.size());
+    }
     return r;
 }
 

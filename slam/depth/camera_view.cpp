@@ -9,7 +9,7 @@
 namespace inlay {
 namespace {
 
-constexpr std::size_t tables_kept = 8;  // a few lenses, each with its pyramid
+constexpr std::size_t tables_kept = 24;  // a few lenses, each with its pyramid
 
 using Numbers = std::array<double, 11>;
 

@@ -21,15 +21,15 @@ std::vector<int> good_frames(const Reconstruction& reconstruction) {
     return positions;
 }
 
-/// Where the depth camera was around a frame, or all the time.
+/// Where the depth camera was around a frame, or all the time, when the model was fused: what
+/// happens between two images does not depend on what became of their poses later.
 std::vector<TimedCamera> path_between(const Reconstruction& reconstruction, int first, int last) {
     std::vector<TimedCamera> path;
     for (int i = std::max(0, first); i <= std::min(last, int(reconstruction.frames.size()) - 1);
          ++i) {
         const ReconstructedFrame& frame = reconstruction.frames[std::size_t(i)];
-        if (frame.tracking.status == TrackingStatus::lost) continue;
-        if (!path.empty() && frame.time <= path.back().time) continue;
-        path.push_back({frame.time, frame.tracking.world_from_camera});
+        if (!frame.fused_at || (!path.empty() && frame.time <= path.back().time)) continue;
+        path.push_back({frame.time, *frame.fused_at});
     }
     return path;
 }
@@ -37,7 +37,9 @@ std::vector<TimedCamera> path_between(const Reconstruction& reconstruction, int 
 }  // namespace
 
 ColorCamera color_camera_of(const Reconstruction& reconstruction, int position, const Lens& lens) {
-    if (!reconstruction.registration) return {lens, Pose{}};
+    const bool apart = reconstruction.registration && (reconstruction.registration->needed ||
+                                                       reconstruction.registration->delay_needed);
+    if (!apart) return {lens, Pose{}};
     const ColorRegistration& found = *reconstruction.registration;
     ColorCamera camera{found.needed ? found.color_lens : lens, Pose{}};
     ColorMapping mapping;

@@ -12,6 +12,7 @@ namespace {
 constexpr int width = 160;             // px, about
 constexpr int levels = 2;              // of a view's pyramid
 constexpr int apart = 5;               // views between two that may close a loop
+constexpr int most_loops = 4;          // that end at one view: the oldest
 constexpr float least_overlap = 0.3f;  // of a view with the other
 constexpr float least_inliers = 0.6f;  // share of the overlap
 constexpr PairingSettings wide{0.3f, 0.8f, 1};
@@ -101,11 +102,13 @@ std::vector<PoseEdge> find_loops(std::span<const LoopView> views, const TrackSet
     std::vector<PoseEdge> edges;
     for (int to = apart; to < int(views.size()); ++to) {
         const LoopView& second = views[std::size_t(to)];
-        for (int from = 0; from + apart <= to; ++from) {
+        int loops = 0;
+        for (int from = 0; from + apart <= to && loops < most_loops; ++from) {
             if (!may_meet(views[std::size_t(from)], second)) continue;
             const auto edge = try_pair(from, to, views, std::span(&second.world_from_camera, 1),
                                        of_views(settings));
             if (edge) edges.push_back(*edge);
+            loops += edge.has_value();
         }
     }
     return edges;

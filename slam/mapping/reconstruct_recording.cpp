@@ -204,6 +204,7 @@ Reconstruction reconstruct_recording(const FrameSource& source, const SlamSettin
     if (!result.complete) return std::move(result);
     if (poses == PoseSource::tracked) close_loops(pass, first.track);
     pass.views.clear();
+    result.volume = {};  // room for what follows
     for (ReconstructedFrame& frame : result.frames)
         if (!is_lost(frame)) frame.fused_at = frame.tracking.world_from_camera;
     if (settings.register_color) result.registration = register_recording(result, source, settings);

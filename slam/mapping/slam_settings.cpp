@@ -22,8 +22,9 @@ SlamSettings first_pass_of(const SlamSettings& settings) {
     SlamSettings first = settings;
     first.look_ahead = false;
     first.half_resolution = true;
-    first.fusion.voxel_size *= 1.5f;
-    first.fusion.truncation *= 1.5f;
+    const float larger = std::min(1.5f, 1 / settings.fusion.voxel_size);  // 1 m at most
+    first.fusion.voxel_size *= larger;
+    first.fusion.truncation *= larger;
     first.track.iterations = std::min(settings.track.iterations, fast.track.iterations);
     return first;
 }

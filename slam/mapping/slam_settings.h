@@ -13,7 +13,7 @@ struct SlamSettings {
     FusionSettings fusion;
     RaycastSettings raycast;
     TrackSettings track;
-    bool half_resolution = false;  // track and fuse every second pixel
+    bool half_resolution = false;  // of depth, for tracking, and for fusing as frames come
     bool look_ahead = true;        // reconstruct_recording() goes over the recording again,
     bool register_color = true;    // and then aligns color with depth where a check says so
 };

@@ -1,5 +1,7 @@
 #include "slam/volume/brick_grid.h"
 
+#include "recordings/base/check.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -8,6 +10,7 @@ namespace {
 
 constexpr std::array<int, 3> slot_stride{1, brick_side, brick_side* brick_side};
 
+constexpr double most_entries = 1 << 27;  // 1 GB
 constexpr float least_share = 0.5f;  // of the voxels around a point, by weight, that must be known
 
 const Brick& absent_brick() {
@@ -32,9 +35,13 @@ BrickGrid::BrickGrid(const VoxelVolume& volume, std::span<const int> bricks) {
     }
     origin_ = (lowest - 1) * brick_side;
     size_ = highest - lowest + 3;
+    const double entries = double(size_.x) * double(size_.y) * double(size_.z);
+    require(entries <= most_entries,
+            "the model's bricks in view span more than fits a table: take larger voxels "
+            "(slam.fusion.voxel_size) or a nearer slam.raycast.farthest",
+            ExitCode::usage);
     stride_ = {1, size_.x, size_.x * size_.y};
-    table_.assign(std::size_t(size_.x) * std::size_t(size_.y) * std::size_t(size_.z),
-                  &absent_brick());
+    table_.assign(std::size_t(entries), &absent_brick());
     for (const int number : bricks) {
         const Brick& brick = volume.bricks[std::size_t(number)];
         const glm::ivec3 at = brick.key - lowest + 1;

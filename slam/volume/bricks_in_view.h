@@ -9,8 +9,9 @@
 
 namespace inlay {
 
-/// Numbers of the bricks, grown by `margin` voxels on each side, that the view may see; ascending.
+/// Numbers of the bricks, grown by `margin` voxels on each side, that the view may see up to
+/// `farthest` (m, along z); ascending.
 std::vector<int> bricks_in_view(const VoxelVolume& volume, const CameraView& view,
-                                const Pose& camera_from_world, int margin);
+                                const Pose& camera_from_world, int margin, float farthest);
 
 }  // namespace inlay

@@ -134,6 +134,13 @@ void fold_brick(Brick& brick, float voxel_size, const Observation& seen, float t
     }
 }
 
+float farthest_of(const SurfaceMap& surface) {
+    float farthest = 0;
+    for (const glm::vec3& p : surface.position.pixels)
+        farthest = std::max(farthest, p.z);
+    return farthest;
+}
+
 }  // namespace
 
 void validate(const FusionSettings& s) {
@@ -166,7 +173,8 @@ void fuse_surface(VoxelVolume& volume, const SurfaceMap& surface, const SeenColo
     const Observation seen = observe(surface, color, settings);
     allocate_bricks(volume, surface);
     const std::vector<int> bricks =
-        bricks_in_view(volume, seen.view, inverse(surface.world_from_camera), 0);
+        bricks_in_view(volume, seen.view, inverse(surface.world_from_camera), 0,
+                       farthest_of(surface) + 2 * volume.truncation);
     parallel_for(int(bricks.size()), [&](int i) {
         fold_brick(volume.bricks[std::size_t(bricks[std::size_t(i)])], volume.voxel_size, seen,
                    volume.truncation, settings.max_weight);

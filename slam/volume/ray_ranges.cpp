@@ -66,14 +66,14 @@ void mark(RayRanges& ranges, const Box& box) {
 }  // namespace
 
 RayRanges ray_ranges(const VoxelVolume& volume, const CameraView& view,
-                     const Pose& camera_from_world, float nearest) {
+                     const Pose& camera_from_world, float nearest, float farthest) {
     RayRanges ranges;
     ranges.cells = Image<ZRange>(view.lens.width / pixels_per_cell + 1,
                                  view.lens.height / pixels_per_cell + 1);
     ranges.lowest = view.lowest;
     ranges.cells_per_unit =
         glm::vec2(ranges.cells.width, ranges.cells.height) / (view.highest - view.lowest);
-    ranges.bricks = bricks_in_view(volume, view, camera_from_world, gradient_reach);
+    ranges.bricks = bricks_in_view(volume, view, camera_from_world, gradient_reach, farthest);
     for (const int number : ranges.bricks) {
         const Box box =
             bounds(volume.keys[std::size_t(number)], volume.voxel_size, camera_from_world, nearest);

@@ -43,8 +43,9 @@ struct RayRanges {
     }
 };
 
-/// The ranges of a view; bricks nearer than `nearest` (m, along z, > 0) count as being there.
+/// The ranges of a view up to `farthest` (m, along z); bricks nearer than `nearest` (m, > 0) count
+/// as being there.
 RayRanges ray_ranges(const VoxelVolume& volume, const CameraView& view,
-                     const Pose& camera_from_world, float nearest);
+                     const Pose& camera_from_world, float nearest, float farthest);
 
 }  // namespace inlay

@@ -14,6 +14,7 @@ namespace inlay {
 namespace {
 
 constexpr float surely_far = 0.7f;  // of the truncation; nearer, the field is read trilinearly
+constexpr float parallel = 1e-12f;  // to an axis: directions that never leave a brick by it
 constexpr int refinements = 2;      // of a crossing
 
 /// Eight neighbouring pixels' rays in the voxels of a grid, by z in metres.
@@ -36,7 +37,7 @@ Floats next_brick(const Rays& rays, const Vectors& p, const Floats& z_here) {
     const auto ahead = [](const Floats& x, const Floats& direction, const Floats& inverse) {
         const Floats first = stdx::floor((x + 0.5f) * (1.0f / brick_side)) * float(brick_side);
         const Floats wall = first + choose(direction > 0, brick_side - 0.5f, -0.5f);
-        return (wall - x) * inverse;
+        return choose(stdx::abs(direction) > parallel, (wall - x) * inverse, 1e30f);
     };
     const Floats x = ahead(p.x, rays.direction.x, rays.inverse.x);
     const Floats y = ahead(p.y, rays.direction.y, rays.inverse.y);
@@ -111,7 +112,7 @@ struct View {
     float truncation;  // m
 };
 
-Floats safe_inverse(const Floats& x) { return 1 / choose(stdx::abs(x) > 1e-12f, x, 1e-12f); }
+Floats safe_inverse(const Floats& x) { return 1 / choose(stdx::abs(x) > parallel, x, 1); }
 
 /// The rays of pixels (x, y) to (x + 7, y); those beyond the row look nowhere.
 Rays rays_of(const View& view, int x, int y) {
@@ -125,7 +126,7 @@ Rays rays_of(const View& view, int x, int y) {
         const ZRange& range = view.ranges.of(ray);
         directions[lane] = view.voxels_from_camera * ray;
         length[lane] = glm::length(ray);
-        nearest[lane] = std::min(range.nearest, view.settings.farthest);
+        nearest[lane] = range.occupied != 0 ? range.nearest : view.settings.nearest;
         farthest[lane] = std::min(range.farthest, view.settings.farthest);
         if (column >= table.width) farthest[lane] = -1;
         rays.ranges[lane] = &range;
@@ -182,7 +183,7 @@ SurfaceMap raycast_volume(const VoxelVolume& volume, const Lens& lens,
     SurfaceMap map = empty_surface_map(lens, world_from_camera);
     const CameraView camera = camera_view(lens);
     const RayRanges ranges =
-        ray_ranges(volume, camera, inverse(world_from_camera), settings.nearest);
+        ray_ranges(volume, camera, inverse(world_from_camera), settings.nearest, settings.farthest);
     if (ranges.bricks.empty()) return map;
     const BrickGrid grid(volume, ranges.bricks);
     const double voxels_per_metre = 1.0 / double(volume.voxel_size);

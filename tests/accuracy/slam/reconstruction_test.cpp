@@ -72,6 +72,7 @@ TEST(ReconstructRecording, ALoopAlongFourWallsCloses) {
 TEST(ReconstructRecording, WithoutDriftThereIsNothingToClose) {
     const Reconstruction result =
         reconstruct_recording(walk(0), accurate_slam(), PoseSource::tracked, to_the_end);
+    EXPECT_TRUE(result.loops.empty());
     for (const ReconstructedFrame& frame : result.frames)
         EXPECT_EQ(frame.tracking.status, TrackingStatus::tracked) << frame.number;
     // Voxels of 8 mm, and noise of 3 to 8 mm that averages out over thousands of points.

@@ -60,6 +60,13 @@ TEST(Reconstruct, LooksAheadAndGoesAroundADamagedFrame) {
         EXPECT_EQ(status["status"] == "lost", status["frame"] == 2) << line;
     }
     EXPECT_EQ(lines, 6);
+    const std::string status = test::file_text(out / "status.jsonl");
+    const std::string poses = test::file_text(out / "poses.txt");
+    const Outcome again = test::run_program("reconstruct " + recording.string() + " --out " +
+                                            out.string() + " --quiet");
+    EXPECT_EQ(again.code, 65);  // from what was kept
+    EXPECT_EQ(test::file_text(out / "status.jsonl"), status);
+    EXPECT_EQ(test::file_text(out / "poses.txt"), poses);
 }
 
 }  // namespace
