@@ -34,6 +34,7 @@ std::vector<SettingRow> slam_rows() {
         row("slam.track.fine_distance", "m", INLAY_MEMBER(slam.track.fine_distance)),
         row("slam.track.coarse_angle", "rad", INLAY_MEMBER(slam.track.coarse_angle)),
         row("slam.track.fine_angle", "rad", INLAY_MEMBER(slam.track.fine_angle)),
+        row("slam.track.noisy_angle", "rad", INLAY_MEMBER(slam.track.noisy_angle)),
         row("slam.track.least_information", "0..1", INLAY_MEMBER(slam.track.least_information)),
         row("slam.track.tracked_share", "0..1", INLAY_MEMBER(slam.track.tracked_share)),
         row("slam.track.weak_share", "0..1", INLAY_MEMBER(slam.track.weak_share)),

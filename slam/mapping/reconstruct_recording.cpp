@@ -210,7 +210,10 @@ Reconstruction reconstruct_recording(const FrameSource& source, const SlamSettin
     if (settings.register_color) result.registration = register_recording(result, source, settings);
     result.complete = fuse_recording(result, source, settings, go_on);
     if (result.complete && poses == PoseSource::tracked) {
-        result.complete = second_pass(result, source, settings, go_on);
+        SlamSettings second = settings;
+        second.track.noisy_angle =
+            settings.track.coarse_angle;  // the model has its noise behind it
+        result.complete = second_pass(result, source, second, go_on);
     }
     return std::move(result);
 }

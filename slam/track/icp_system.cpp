@@ -21,6 +21,7 @@ struct Pairs {
     Lanes observed, seen, paired;  // each among the ones before
     Vectors point;                 // m, observed, in the model's camera
     Vectors normal;                // of the model
+    Floats cosine;                 // of the angle between the normals
     Floats residual;               // m, from the point to the model's plane
     Floats sigma;                  // m, of the residual
 };
@@ -65,9 +66,10 @@ public:
         const Vectors between{surface.x - pairs.point.x, surface.y - pairs.point.y,
                               surface.z - pairs.point.z};
         const Vectors turned = transformed(rotation_, own(observed_.normal));
+        pairs.cosine = dot(turned, pairs.normal);
         pairs.paired = pairs.seen &&
                        dot(between, between) <= settings_.distance * settings_.distance &&
-                       dot(turned, pairs.normal) >= settings_.cosine;
+                       pairs.cosine >= settings_.cosine;
         pairs.residual = dot(between, pairs.normal);
         return pairs;
     }
@@ -165,16 +167,18 @@ IcpSystem icp_system(const SurfaceMap& observed, const SurfaceMap& model,
     return sum;
 }
 
-float residual_scale(const SurfaceMap& observed, const SurfaceMap& model,
-                     const Pose& model_from_observed, const PairingSettings& settings) {
-    const Pairing pairing(observed, model, model_from_observed, settings);
+namespace {
+
+/// The median over the pairs of every fourth row of what `measure` gives; 0 if there is no pair.
+template <class Measure>
+float median_over_pairs(const SurfaceMap& observed, const Pairing& pairing, Measure measure) {
     std::vector<std::vector<float>> rows(std::size_t(observed.lens.height / scale_stride));
     parallel_for(int(rows.size()), [&](int i) {
         for (int x = 0; x < observed.lens.width; x += lane_count) {
             const Pairs pairs = pairing.pairs_of(x, i * scale_stride);
-            const auto deviations = numbers_of(stdx::abs(pairs.residual) / pairs.sigma);
+            const auto values = numbers_of(measure(pairs));
             for (std::size_t lane = 0; lane < lane_count; ++lane)
-                if (pairs.paired[lane]) rows[std::size_t(i)].push_back(deviations[lane]);
+                if (pairs.paired[lane]) rows[std::size_t(i)].push_back(values[lane]);
         }
     });
     std::vector<float> all;
@@ -183,7 +187,26 @@ float residual_scale(const SurfaceMap& observed, const SurfaceMap& model,
     if (all.empty()) return 0;
     const auto middle = all.begin() + std::ptrdiff_t(all.size() / 2);
     std::nth_element(all.begin(), middle, all.end());
-    return 1.4826f * *middle;
+    return *middle;
+}
+
+}  // namespace
+
+float residual_scale(const SurfaceMap& observed, const SurfaceMap& model,
+                     const Pose& model_from_observed, const PairingSettings& settings) {
+    const Pairing pairing(observed, model, model_from_observed, settings);
+    return 1.4826f * median_over_pairs(observed, pairing, [](const Pairs& pairs) {
+               return stdx::abs(pairs.residual) / pairs.sigma;
+           });
+}
+
+float median_angle(const SurfaceMap& observed, const SurfaceMap& model,
+                   const Pose& model_from_observed, const PairingSettings& settings) {
+    const Pairing pairing(observed, model, model_from_observed, settings);
+    const float turn = median_over_pairs(observed, pairing, [](const Pairs& pairs) {
+        return 1 - pairs.cosine;  // grows with the angle
+    });
+    return std::acos(std::clamp(1 - turn, -1.0f, 1.0f));
 }
 
 }  // namespace inlay

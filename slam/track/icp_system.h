@@ -40,4 +40,9 @@ IcpSystem icp_system(const SurfaceMap& observed, const SurfaceMap& model,
 float residual_scale(const SurfaceMap& observed, const SurfaceMap& model,
                      const Pose& model_from_observed, const PairingSettings& settings);
 
+/// The median angle (rad) between the normals of the pairs; from every fourth row. 0 if there is no
+/// pair.
+float median_angle(const SurfaceMap& observed, const SurfaceMap& model,
+                   const Pose& model_from_observed, const PairingSettings& settings);
+
 }  // namespace inlay

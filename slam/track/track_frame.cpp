@@ -32,6 +32,10 @@ PairingSettings pairing_of(int level, const TrackSettings& settings) {
 
 void solve_level(Attempt& attempt, const SurfaceMap& observed, const SurfaceMap& model,
                  PairingSettings pairing, const TrackSettings& settings) {
+    PairingSettings wide = pairing;
+    wide.cosine = std::cos(settings.coarse_angle);
+    const float noise = median_angle(observed, model, attempt.model_from_observed, wide);
+    if (noise > settings.noisy_angle) pairing = wide;
     for (int i = 0; i < settings.iterations; ++i) {
         const float scale = residual_scale(observed, model, attempt.model_from_observed, pairing);
         pairing.scale = std::max(scale, least_scale);
@@ -114,6 +118,7 @@ void validate(const TrackSettings& s) {
         "slam.track.fine_angle must be above 0 and no more than slam.track.coarse_angle, which is "
         "below 1.6 rad",
         ExitCode::usage);
+    require(s.noisy_angle >= 0, "slam.track.noisy_angle must be 0 or more", ExitCode::usage);
     require(s.least_information >= 0, "slam.track.least_information must be 0 or more",
             ExitCode::usage);
     require(s.weak_share >= 0 && s.weak_share <= s.tracked_share && s.tracked_share <= 1,

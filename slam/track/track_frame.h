@@ -28,6 +28,8 @@ struct TrackSettings {
     float fine_distance = 0.04f;      // m, at the finest level
     float coarse_angle = 0.6f;        // rad, largest one between the normals of a pair, likewise
     float fine_angle = 0.18f;         // rad; noise and bends of the depth turn normals by more
+    float noisy_angle = 0.27f;        // rad; where the median is larger all is noise, and the
+                                      // coarse angle is taken
     float least_information = 5e-4f;  // per pair, 0..1: directions with less are not moved; normals
                                       // with a noise of s rad feign s^2
     float tracked_share = 0.5f;       // inlier share for `tracked`
