@@ -104,8 +104,9 @@ void follow_keyframes(Reconstruction& result, const std::vector<Pose>& moves) {
     }
 }
 
-/// Takes out drift where loops show any. Where they agree with the poses within what the sensor's
-/// own bends explain, tracking against the model knows better.
+/// Takes out drift where views meet again and motions measured between views contradict the poses:
+/// loops, or the chain where the camera was drawn back at a loop's end. Where they agree with them
+/// within what the sensor's own bends explain, tracking against the model knows better.
 void close_loops(FirstPass& pass, const TrackSettings& settings) {
     std::vector<PoseEdge> loops = find_loops(pass.views, settings);
     if (loops.empty()) return;
