@@ -5,6 +5,7 @@
 #include "composite/session/prepare_scene.h"
 #include "composite/session/stop_watch.h"
 #include "recordings/base/check.h"
+#include "slam/mapping/depth_scale.h"
 
 #include "apps/inlay/command.h"
 #include "apps/inlay/frame_list.h"
@@ -211,7 +212,10 @@ void add_choices_before(const ReplayOptions& o, const RecordingInfo& recording,
 std::optional<std::shared_ptr<const Reconstruction>> known_of(const Recording& recording,
                                                               const Settings& settings,
                                                               bool quiet) {
-    if (!settings.slam.look_ahead) return nullptr;
+    if (!settings.slam.look_ahead) {
+        if (settings.slam.check_scale) check_depth_scale(frames_of(recording));
+        return nullptr;
+    }
     Progress progress("reconstructing", passes_at_most * int(recording.info.frames.size()), quiet);
     int done = 0;
     auto known = know_recording(recording, settings, [&](int) {

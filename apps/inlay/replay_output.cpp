@@ -69,6 +69,7 @@ FrameReport report_of(int frame, double time, const OutputFrame& composed) {
     report.time = time;
     report.tracking = composed.tracking.status;
     report.world_from_camera = composed.tracking.world_from_camera;
+    report.exposure = composed.exposure;
     report.ms = composed.ms;
     report.rays = composed.rays;
     report.pixels = {composed.composite.virtual_pixels, composed.composite.influenced_pixels,

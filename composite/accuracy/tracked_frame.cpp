@@ -26,7 +26,8 @@ TrackedFrame kept(const RgbdFrame& frame, SlamStep step, const VoxelVolume& volu
     result.tracking = step.tracking;
     result.lens = step.surface.lens;
     result.world_from_camera = step.surface.world_from_camera;
-    result.photo = std::make_shared<const Photo>(linearise(frame.color));
+    result.photo =
+        std::make_shared<const Photo>(at_reference_exposure(linearise(frame.color, step.gain)));
     if (step.tracking.status == TrackingStatus::lost) return result;  // there is nothing to trace
     result.room = std::make_shared<const RealScene>(describe_real_scene(
         std::move(step.surface), result.photo->linear, volume, model, settings));

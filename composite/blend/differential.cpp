@@ -174,7 +174,7 @@ Composite composite(const Photo& photo, const Layers& layers, const BlendSetting
             row.virtual_pixels += !std::isnan(terms.m) && terms.m < 1 ? 1 : 0;
             if (pixel.as_recorded) continue;
             result.linear.pixels[i] = pixel.linear;
-            result.display.pixels[i] = encode(pixel.linear);
+            result.display.pixels[i] = encode(pixel.linear * photo.exposure);
             row.influenced += result.display.pixels[i] != photo.encoded.pixels[i] ? 1 : 0;
         }
     });

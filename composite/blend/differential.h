@@ -27,8 +27,9 @@ struct BlendSettings {
 void validate(const BlendSettings& settings);
 
 struct Composite {
-    Image<EncodedRgb> display;            // recorded bytes where nothing changed
-    Image<Rgb> linear;                    // relative radiance, finite, >= 0
+    Image<EncodedRgb> display;            // recorded bytes where nothing changed; at the
+                                          // photograph's exposure elsewhere
+    Image<Rgb> linear;                    // relative radiance at the reference exposure, >= 0
     std::uint64_t virtual_pixels = 0;     // M < 1
     std::uint64_t influenced_pixels = 0;  // display bytes that differ from the recorded ones
     std::uint64_t replaced_pixels = 0;    // a term was not finite: the photograph stands in

@@ -4,9 +4,20 @@
 
 namespace inlay {
 
-Photo linearise(Image<EncodedRgb> color) {
+Photo linearise(Image<EncodedRgb> color, const Rgb& exposure) {
     Image<Rgb> linear = decode(color);
-    return {std::move(color), std::move(linear)};
+    if (exposure != Rgb(1)) {
+        for (Rgb& pixel : linear.pixels)
+            pixel /= exposure;
+    }
+    return {std::move(color), std::move(linear), exposure};
+}
+
+Photo at_reference_exposure(Photo photo) {
+    if (photo.exposure == Rgb(1)) return photo;
+    photo.encoded = encode(photo.linear);
+    photo.exposure = Rgb(1);
+    return photo;
 }
 
 }  // namespace inlay

@@ -71,7 +71,7 @@ bool shows_anything(const OutputFrame& out) {
 PriceFront measure_front(const FrameAtHand& f) {
     PriceFront front;
     if (!shows_anything(f.out)) return front;
-    const Photo photo = linearise(f.frame.color);
+    const Photo photo = linearise(f.frame.color, f.out.exposure);
     const Mask mask = changed_pixels(f);
     const RawPair raw = raw_pair(f, photo);
     for (const int samples : measured_samples) {
@@ -87,7 +87,7 @@ PriceFront measure_front(const FrameAtHand& f) {
 
 std::optional<double> estimate_error_factor(const FrameAtHand& f, const PriceFront& front) {
     if (!shows_anything(f.out)) return std::nullopt;
-    const Photo photo = linearise(f.frame.color);
+    const Photo photo = linearise(f.frame.color, f.out.exposure);
     const RawPair raw = raw_pair(f, photo);
     SamplingSettings sampling = f.session.settings.trace;
     sampling.seed += seed_offset;

@@ -55,6 +55,12 @@ SlamStep without_pose(const SlamState& slam) {
     return step;
 }
 
+/// What the model leaves open: edges and the normals of surfaces that were hardly seen.
+void finish(SurfaceMap& surface, const RgbdFrame& frame, const SlamSettings& settings) {
+    follow_photograph(surface, frame.color, settings.edges);
+    surface.normal = smooth_normals(surface);
+}
+
 }  // namespace
 
 SlamStep track_frame_of(SlamState& slam, const RgbdFrame& frame, const Settings& settings) {
@@ -64,7 +70,7 @@ SlamStep track_frame_of(SlamState& slam, const RgbdFrame& frame, const Settings&
         known = frame.recorded_world_from_camera;
     }
     SlamStep step = advance_slam(slam, frame, settings.slam, known);
-    step.surface.normal = smooth_normals(step.surface);
+    finish(step.surface, frame, settings.slam);
     return step;
 }
 
@@ -72,7 +78,10 @@ SlamStep known_frame_of(const Reconstruction& known, const RgbdFrame& frame,
                         const Settings& settings) {
     const int position = position_of(known, frame.index);
     SlamStep step;
-    if (position >= 0) step.tracking = known.frames[std::size_t(position)].tracking;
+    if (position >= 0) {
+        step.tracking = known.frames[std::size_t(position)].tracking;
+        step.gain = known.frames[std::size_t(position)].gain;
+    }
     const auto& registration = known.registration;
     if (position >= 0 && registration && (registration->needed || registration->delay_needed)) {
         const ColorCamera camera = color_camera_of(known, position, frame.lens);
@@ -83,7 +92,7 @@ SlamStep known_frame_of(const Reconstruction& known, const RgbdFrame& frame,
     } else {
         step.surface = see_model(known.volume, frame, step.tracking, settings.slam);
     }
-    step.surface.normal = smooth_normals(step.surface);
+    finish(step.surface, frame, settings.slam);
     return step;
 }
 

@@ -93,6 +93,7 @@ Json to_json(const Reconstruction& r) {
                           {"iterations", t.iterations},
                           {"overlap", t.overlap},
                           {"why", t.why},
+                          {"exposure", {f.gain.r, f.gain.g, f.gain.b}},
                           {"readable", f.readable}});
         if (f.fused_at) frames.back()["fused_at"] = rows_of(*f.fused_at);
     }
@@ -118,6 +119,8 @@ Reconstruction reconstruction_from(const Json& json) {
             f.at("inlier_share").get<float>(),    f.at("rms_residual_m").get<float>(),
             f.at("iterations").get<int>(),        f.at("overlap").get<float>(),
             f.at("why").get<std::string>()};
+        const auto gain = f.at("exposure").get<std::array<float, 3>>();
+        frame.gain = {gain[0], gain[1], gain[2]};
         frame.readable = f.at("readable").get<bool>();
         if (f.contains("fused_at")) frame.fused_at = pose_from(f.at("fused_at"));
         r.frames.push_back(frame);
@@ -183,7 +186,8 @@ Json status_json(const ReconstructedFrame& f) {
             {"why", t.why},
             {"inlier_share", t.inlier_share},
             {"overlap", t.overlap},
-            {"rms_residual_m", t.rms_residual}};
+            {"rms_residual_m", t.rms_residual},
+            {"exposure", {f.gain.r, f.gain.g, f.gain.b}}};
 }
 
 }  // namespace inlay

@@ -76,7 +76,8 @@ OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work) {
     facts.tracked = slam.tracking.status != TrackingStatus::lost;
     facts.first_frame = !previous;
     out.plan = plan_effects(facts, settings.trace, settings.filter);
-    Photo photo = linearise(frame.color);
+    out.exposure = slam.gain;
+    Photo photo = linearise(frame.color, out.exposure);
     out.ms.plan = watch.lap();
 
     if (out.plan.has("environment_indirect")) {

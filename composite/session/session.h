@@ -55,7 +55,8 @@ struct OutputFrame {
     std::shared_ptr<const RealScene> real;     // null where nothing was simulated
     std::shared_ptr<const NoisyLayers> noisy;  // null where `real` is
     Layers layers;
-    Image<Rgb> camera;  // the photograph, linear
+    Image<Rgb> camera;  // the photograph, linear, at the reference exposure
+    Rgb exposure{1};    // of the photograph, relative to that
     RayCounts rays;
     std::uint64_t dropped_samples = 0;  // non-finite ones, left out of every mean
     StageTimes ms;

@@ -145,6 +145,7 @@ std::string to_json_line(const FrameReport& r) {
               {"dropped_samples", r.dropped_samples},
               {"replaced_pixels", r.replaced_pixels},
               {"plan", r.plan}};
+    if (r.exposure != glm::vec3(1)) json["exposure"] = {r.exposure.r, r.exposure.g, r.exposure.b};
     if (r.governor) json["governor"] = to_json(*r.governor);
     return json.dump();
 }
@@ -164,6 +165,10 @@ FrameReport from_json_line(const std::string& line, const std::string& place) {
         r.time = json.at("time_s").get<double>();
         r.tracking = status_from(json.at("tracking").get<std::string>(), place);
         r.world_from_camera = pose_from(json.at("world_from_camera"), place);
+        if (json.contains("exposure")) {
+            const auto exposure = json.at("exposure").get<std::array<float, 3>>();
+            r.exposure = {exposure[0], exposure[1], exposure[2]};
+        }
         r.ms = {number("load"),   number("slam"),      number("plan"),  number("trace"),
                 number("filter"), number("composite"), number("write"), number("total")};
         r.rays = {count(rays, "primary"), count(rays, "virtual_shadow"),

@@ -39,7 +39,8 @@ struct FrameReport {
     int frame = 0;    // the recording's own number
     double time = 0;  // s since the recording's first frame
     TrackingStatus tracking = TrackingStatus::tracked;
-    Pose world_from_camera{};
+    Pose world_from_camera{};  // of the camera that took the photograph
+    glm::vec3 exposure{1};     // of the photograph, relative to the recording's first, per channel
     StageTimes ms{};
     RayCounts rays{};
     PixelCounts pixels{};

@@ -20,6 +20,26 @@ Landing land_on_virtual(const EmbreeScene& objects, const SurfaceHit& hit, const
     return landing;
 }
 
+namespace {
+
+/// Whether a real surface hides the virtual one: measured depth is noisy.
+bool hides(const RealPrimaryHit& real, const SurfaceHit& on_virtual, float depth_tolerance) {
+    return real.distance * (1 + depth_tolerance) < on_virtual.distance;
+}
+
+/// The real surface that counts for a ray: the pixel's own, unless a virtual surface stands between
+/// the two that the pixel sees.
+const RealPrimaryHit& real_hit(const RealPrimaryHits& hits, std::size_t lane,
+                               const SurfaceHit& on_virtual, float depth_tolerance) {
+    const bool split = (hits.split >> lane & 1U) != 0;
+    const bool between = split && on_virtual.hit() &&
+                         hides(hits.pixel[lane], on_virtual, depth_tolerance) !=
+                             hides(hits.ray[lane], on_virtual, depth_tolerance);
+    return between ? hits.ray[lane] : hits.pixel[lane];
+}
+
+}  // namespace
+
 Landings land(const RealGeometry& real, const EmbreeScene& objects, const RayPacket& rays,
               const std::array<glm::ivec2, packet_width>& pixels, float depth_tolerance) {
     const HitPacket on_virtual = objects.intersect(rays);
@@ -28,17 +48,16 @@ Landings land(const RealGeometry& real, const EmbreeScene& objects, const RayPac
     for (int lane = 0; lane < packet_width; ++lane) {
         if (!rays.has(lane)) continue;
         const auto i = std::size_t(lane);
-        const float tolerated = on_real[i].distance * (1 + depth_tolerance);
-        if (on_virtual[i].hit() && !(tolerated < on_virtual[i].distance)) {
+        const RealPrimaryHit& seen = real_hit(on_real, i, on_virtual[i], depth_tolerance);
+        if (on_virtual[i].hit() && !hides(seen, on_virtual[i], depth_tolerance)) {
             landings[i] =
                 land_on_virtual(objects, on_virtual[i], rays.origin[i], rays.direction[i]);
-        } else if (on_real[i].distance != no_hit &&
-                   glm::dot(on_real[i].normal, on_real[i].normal) > 0) {
+        } else if (seen.distance != no_hit && glm::dot(seen.normal, seen.normal) > 0) {
             Landing& landing = landings[i];
             landing.kind = LandingKind::real;
-            landing.distance = on_real[i].distance;
-            landing.position = on_real[i].position;
-            landing.normal = landing.geometric_normal = on_real[i].normal;
+            landing.distance = seen.distance;
+            landing.position = seen.position;
+            landing.normal = landing.geometric_normal = seen.normal;
             landing.object = 1;
         }
     }

@@ -11,9 +11,8 @@ namespace inlay {
 /// Where camera rays meet the tangent planes of the pixels they go through, so that points of one
 /// pixel lie on one plane; planes seen too flat are kept within the share `largest_tilt` (0..0.5)
 /// of the pixel's depth, as the screen tracer keeps its facets.
-std::array<RealPrimaryHit, packet_width> map_primary(
-    const SurfaceMap& map, const RayPacket& camera_rays,
-    const std::array<glm::ivec2, packet_width>& pixels,
-    float largest_tilt = ScreenTracerSettings{}.largest_tilt);
+RealPrimaryHits map_primary(const SurfaceMap& map, const RayPacket& camera_rays,
+                            const std::array<glm::ivec2, packet_width>& pixels,
+                            float largest_tilt = ScreenTracerSettings{}.largest_tilt);
 
 }  // namespace inlay

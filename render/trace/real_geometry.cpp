@@ -33,27 +33,26 @@ std::optional<Rgb> photographed(const PhotographedSurface& seen, const glm::vec3
 RealGeometry no_real_geometry() {
     DistancePacket nothing;
     nothing.fill(no_hit);
-    return {
-        [](const RayPacket&, const auto&) { return std::array<RealPrimaryHit, packet_width>{}; },
-        [nothing](const RayPacket&) { return nothing; }, [](const RayPacket&) { return 0U; },
-        [nothing](const RayPacket&, const SampleKeys&) {
-            return RealHits{nothing, {}};
-        }};
+    return {[](const RayPacket&, const auto&) { return RealPrimaryHits{}; },
+            [nothing](const RayPacket&) { return nothing; }, [](const RayPacket&) { return 0U; },
+            [nothing](const RayPacket&, const SampleKeys&) {
+                return RealHits{nothing, {}};
+            }};
 }
 
 RealGeometry exact_real_geometry(const EmbreeScene& scene, const EnvironmentSampler& environment,
                                  std::uint32_t dimension) {
     RealGeometry real;
     real.primary = [&scene](const RayPacket& rays, const auto&) {
-        std::array<RealPrimaryHit, packet_width> result;
+        RealPrimaryHits result;
         const HitPacket hits = scene.intersect(rays);
         for (std::size_t i = 0; i < packet_width; ++i) {
             if (!hits[i].hit()) continue;
             const SurfacePoint point =
                 scene.surface_point(hits[i], rays.origin[i], rays.direction[i]);
             const bool behind = glm::dot(point.shading_normal, rays.direction[i]) > 0;
-            result[i] = {hits[i].distance, point.position,
-                         behind ? -point.shading_normal : point.shading_normal};
+            result.pixel[i] = {hits[i].distance, point.position,
+                               behind ? -point.shading_normal : point.shading_normal};
         }
         return result;
     };

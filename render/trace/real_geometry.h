@@ -18,6 +18,14 @@ struct RealPrimaryHit {
     glm::vec3 normal{0.0f};    // unit, world, towards the camera
 };
 
+/// The same of sixteen rays. Where a pixel sees two surfaces (SplitPixels), `pixel` has the one
+/// that fills more of it, on which its light is gathered, and `ray` the one that the ray itself
+/// meets, which decides what hides virtual surfaces that stand between the two.
+struct RealPrimaryHits {
+    std::array<RealPrimaryHit, packet_width> pixel, ray;
+    std::uint32_t split = 0;  // bit mask of lanes where `ray` has something to say
+};
+
 using DistancePacket = std::array<float, packet_width>;
 
 struct RealHits {
@@ -28,8 +36,8 @@ struct RealHits {
 /// Functions over packets of rays. `offset` (m): how far off a real surface rays start, since
 /// primary surface and traced surface may differ by the model's noise.
 struct RealGeometry {
-    std::function<std::array<RealPrimaryHit, packet_width>(
-        const RayPacket& camera_rays, const std::array<glm::ivec2, packet_width>& pixels)>
+    std::function<RealPrimaryHits(const RayPacket& camera_rays,
+                                  const std::array<glm::ivec2, packet_width>& pixels)>
         primary;
     std::function<DistancePacket(const RayPacket&)> distances;
     std::function<std::uint32_t(const RayPacket&)> occluded;  // bit mask of lanes that hit anything

@@ -1,5 +1,7 @@
 #include "slam/mapping/advance_slam.h"
 
+#include "slam/landmarks/find_landmarks.h"
+#include "slam/mapping/depth_scale.h"
 #include "slam/mapping/find_way_back.h"
 #include "slam/mapping/observe_frame.h"
 #include "slam/mapping/see_model.h"
@@ -21,19 +23,24 @@ std::vector<Pose> predictions(const SlamState& state) {
     return {last * (inverse(*state.before_last) * last), last};
 }
 
-TrackResult track(const SlamState& state, const ObservedFrame& observed,
+TrackResult track(const SlamState& state, const RgbdFrame& frame, const ObservedFrame& observed,
                   const SlamSettings& settings) {
     TrackResult result;
     if (state.frames_lost == 0) {
-        result = track_frame(observed.pyramid, *state.model, predictions(state), settings.track);
+        const Photographs photographs{frame.color, state.photograph};
+        result = track_frame(observed.pyramid, *state.model, predictions(state), settings.track,
+                             &photographs);
     }
     if (result.status == TrackingStatus::tracked) return result;
-    if (const auto found = find_way_back(state, observed.pyramid, observed.clean, settings)) {
+    if (const auto found = find_way_back(state, observed, frame.color, settings)) {
         return *found;
     }
     if (result.status == TrackingStatus::weak) return result;
     result.status = TrackingStatus::lost;
     result.world_from_camera = state.model->world_from_camera;
+    if (const auto scale = other_scale(observed.pyramid.front(), *state.model))
+        result.why = "its depth is " + std::to_string(*scale) +
+                     " times what the model has: it may be of another scale";
     if (result.why.empty()) result.why = "none of the earlier views explains it";
     return result;
 }
@@ -42,7 +49,7 @@ TrackResult locate(const SlamState& state, const RgbdFrame& frame, const Observe
                    const SlamSettings& settings) {
     if (!state.model) return certain(frame.recorded_world_from_camera.value_or(Pose{}));
     if (state.volume.bricks.empty()) return certain(state.model->world_from_camera);
-    return track(state, observed, settings);
+    return track(state, frame, observed, settings);
 }
 
 void learn(SlamState& state, const RgbdFrame& frame, ObservedFrame observed,
@@ -51,8 +58,15 @@ void learn(SlamState& state, const RgbdFrame& frame, ObservedFrame observed,
     if (state.model && state.frames_lost == 0) state.before_last = state.model->world_from_camera;
     state.seen = std::move(observed.pyramid.front());
     state.seen->world_from_camera = world_from_camera;
-    fuse_surface(state.volume, *state.seen, {frame.color, frame.lens, Pose{}}, settings.fusion);
-    remember_view(state.keyframes, world_from_camera, observed.clean);
+    SeenColor color{frame.color, frame.lens, Pose{}};
+    if (settings.follow_exposure)
+        update_exposure(state.exposure, measure_exposure(state.volume, *state.seen, color));
+    color.gain = state.exposure.measured;
+    fuse_surface(state.volume, *state.seen, color, settings.fusion);
+    state.photograph = frame.color;
+    if (remember_view(state.keyframes, world_from_camera, observed.clean))
+        state.keyframes.back().landmarks =
+            find_landmarks(frame.color, observed.clean, state.seen->lens);
     state.model =
         raycast_volume(state.volume, state.seen->lens, world_from_camera, settings.raycast);
     state.frames_lost = 0;
@@ -87,6 +101,7 @@ SlamStep advance_slam(SlamState& state, const RgbdFrame& frame, const SlamSettin
     const bool at_full_size = state.model && state.model->lens.width == frame.lens.width;
     step.surface = !lost && at_full_size ? completed(*state.model, *state.seen, settings.raycast)
                                          : see_model(state.volume, frame, step.tracking, settings);
+    step.gain = state.exposure.gain;
     return step;
 }
 

@@ -3,6 +3,7 @@
 
 #include "recordings/base/rgbd_frame.h"
 #include "recordings/base/surface_map.h"
+#include "slam/exposure/measure_exposure.h"
 #include "slam/mapping/keyframes.h"
 #include "slam/mapping/slam_settings.h"
 #include "slam/volume/voxel_volume.h"
@@ -15,15 +16,18 @@ namespace inlay {
 struct SlamState {
     VoxelVolume volume;
     std::optional<SurfaceMap> seen;   // what the last good frame itself saw; empty before the first
+    Image<EncodedRgb> photograph;     // taken there
     std::optional<SurfaceMap> model;  // raycast from its pose
     std::optional<Pose> before_last;  // world_from_camera of the good frame before it
     std::vector<Keyframe> keyframes;  // for finding the way back
     int frames_lost = 0;              // since the last good one
+    Exposure exposure;                // of the last frame that could tell
 };
 
 struct SlamStep {
     TrackResult tracking;
     SurfaceMap surface;
+    Rgb gain{1};  // linear photograph / what the model's exposure would have recorded
 };
 
 SlamState start_slam(const SlamSettings& settings);

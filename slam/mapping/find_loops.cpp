@@ -1,20 +1,23 @@
 #include "slam/mapping/find_loops.h"
 
+#include "slam/landmarks/match_landmarks.h"
 #include "slam/track/icp_system.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace inlay {
 namespace {
 
-constexpr int width = 160;             // px, about
-constexpr int levels = 2;              // of a view's pyramid
-constexpr int apart = 5;               // views between two that may close a loop
-constexpr int most_loops = 4;          // that end at one view: the oldest
-constexpr float least_overlap = 0.3f;  // of a view with the other
-constexpr float least_inliers = 0.6f;  // share of the overlap
+constexpr int width = 160;                // px, about
+constexpr int levels = 2;                 // of a view's pyramid
+constexpr int apart = 5;                  // views between two that may close a loop
+constexpr int most_loops = 4;             // that end at one view: the oldest
+constexpr std::size_t views_matched = 5;  // that have most landmarks in common
+constexpr float least_overlap = 0.3f;     // of a view with the other
+constexpr float least_inliers = 0.6f;     // share of the overlap
 constexpr PairingSettings wide{0.3f, 0.8f, 1};
 constexpr PairingSettings close{0.04f, 0.8f, 1};
 
@@ -61,6 +64,30 @@ bool may_meet(const LoopView& a, const LoopView& b) {
     return pairs.pairs > 0 && float(pairs.pairs) >= least_overlap * float(pairs.observed);
 }
 
+/// An earlier view that shows landmarks of a later one, and where they place that.
+struct SharedLandmarks {
+    int from = 0;
+    Pose second_in_world;  // world_from_camera
+};
+
+/// The earlier views with most in common with view `to`.
+std::vector<SharedLandmarks> landmarks_shared(std::span<const LoopView> views, int to) {
+    const Landmarks& landmarks = views[std::size_t(to)].landmarks;
+    std::vector<SharedLandmarks> shared;
+    if (landmarks.descriptor.empty()) return shared;
+    std::vector<std::pair<int, int>> ranks;  // minus the likeness, and the view
+    for (int from = 0; from + apart <= to; ++from)
+        ranks.emplace_back(-likeness(views[std::size_t(from)].landmarks, landmarks), from);
+    std::sort(ranks.begin(), ranks.end());
+    ranks.resize(std::min(ranks.size(), views_matched));
+    for (const auto& [rank, from] : ranks) {
+        const LoopView& view = views[std::size_t(from)];
+        if (const auto motion = match_landmarks(view.landmarks, landmarks))
+            shared.push_back({from, view.world_from_camera * motion->from_to});
+    }
+    return shared;
+}
+
 /// The motion between two views, found from starts of the second, if the one shows enough of the
 /// other and fits it.
 std::optional<PoseEdge> try_pair(int from, int to, std::span<const LoopView> views,
@@ -78,8 +105,11 @@ std::optional<PoseEdge> try_pair(int from, int to, std::span<const LoopView> vie
 
 }  // namespace
 
-LoopView make_loop_view(const SurfaceMap& seen, const Pose& world_from_camera) {
-    LoopView view{{thinned(seen, std::max(1, seen.lens.width / width))}, world_from_camera};
+LoopView make_loop_view(const SurfaceMap& seen, const Pose& world_from_camera,
+                        Landmarks landmarks) {
+    LoopView view{{thinned(seen, std::max(1, seen.lens.width / width))},
+                  world_from_camera,
+                  std::move(landmarks)};
     for (int level = 1; level < levels; ++level)
         view.pyramid.push_back(thinned(view.pyramid.back(), 2));
     return view;
@@ -103,13 +133,18 @@ std::vector<PoseEdge> find_loops(std::span<const LoopView> views, const TrackSet
     for (int to = apart; to < int(views.size()); ++to) {
         const LoopView& second = views[std::size_t(to)];
         int loops = 0;
-        for (int from = 0; from + apart <= to && loops < most_loops; ++from) {
-            if (!may_meet(views[std::size_t(from)], second)) continue;
-            const auto edge = try_pair(from, to, views, std::span(&second.world_from_camera, 1),
-                                       of_views(settings));
+        const auto try_from = [&](int from, const Pose& start) {
+            if (loops == most_loops) return;
+            const auto edge = try_pair(from, to, views, std::span(&start, 1), of_views(settings));
             if (edge) edges.push_back(*edge);
             loops += edge.has_value();
-        }
+        };
+        for (int from = 0; from + apart <= to && loops < most_loops; ++from)
+            if (may_meet(views[std::size_t(from)], second))
+                try_from(from, second.world_from_camera);
+        if (loops > 0) continue;
+        for (const SharedLandmarks& shared : landmarks_shared(views, to))
+            try_from(shared.from, shared.second_in_world);
     }
     return edges;
 }

@@ -1,5 +1,6 @@
 #include "slam/mapping/find_way_back.h"
 
+#include "slam/landmarks/find_landmarks.h"
 #include "slam/track/se3.h"
 
 namespace inlay {
@@ -40,28 +41,32 @@ std::vector<Pose> poses_around(const Pose& pose) {
     return poses;
 }
 
-std::optional<TrackResult> find_way_back(const SlamState& state,
-                                         std::span<const SurfaceMap> observed,
-                                         const Image<float>& depth, const SlamSettings& settings) {
+std::optional<TrackResult> find_way_back(const SlamState& state, const ObservedFrame& observed,
+                                         const Image<EncodedRgb>& photo,
+                                         const SlamSettings& settings) {
+    const Lens& lens = observed.pyramid.front().lens;
     std::optional<TrackResult> best;
-    const auto attempt = [&](const SurfaceMap& model) {
-        const TrackResult result =
-            track_frame(observed, model, poses_around(model.world_from_camera), settings.track);
+    const auto attempt = [&](const SurfaceMap& model, std::span<const Pose> starts) {
+        const TrackResult result = track_frame(observed.pyramid, model, starts, settings.track);
         if (result.status != TrackingStatus::tracked || result.overlap < least_overlap ||
             result.inlier_share < least_inliers) {
             return;
         }
         if (!best || explained(result) > explained(*best)) best = result;
     };
-    const auto attempt_from = [&](const Pose& view) {
-        attempt(raycast_volume(state.volume, observed.front().lens, view, settings.raycast));
+    const auto seen_from = [&](const Pose& view) {
+        return raycast_volume(state.volume, lens, view, settings.raycast);
     };
-    attempt(*state.model);
+    const Landmarks landmarks = find_landmarks(photo, observed.clean, lens);
+    for (const Pose& pose : poses_by_landmarks(state.keyframes, landmarks, views_tried))
+        attempt(seen_from(pose), std::span(&pose, 1));
+    if (best) return best;
+    attempt(*state.model, poses_around(state.model->world_from_camera));
+    std::vector<Pose> views = similar_views(state.keyframes, observed.clean, views_tried);
     if (state.frames_lost > 0 && state.frames_lost < most_frames_ahead)
-        attempt_from(gone_on(state));
-    for (const Pose& view : similar_views(state.keyframes, depth, views_tried)) {
-        attempt_from(view);
-    }
+        views.insert(views.begin(), gone_on(state));
+    for (const Pose& view : views)
+        attempt(seen_from(view), poses_around(view));
     return best;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "slam/mapping/advance_slam.h"
+#include "slam/mapping/observe_frame.h"
 
 #include <optional>
 #include <span>
@@ -12,12 +13,13 @@ namespace inlay {
 /// coarsest level can bridge.
 std::vector<Pose> poses_around(const Pose& pose);
 
-/// Tries to track `observed` (a pyramid) from the last good pose, from where the camera is if it
-/// went on as before (for the first half second), and from the earlier views that
-/// look most like `depth`, each against the model as seen from there. A result counts if it
-/// explains most of the frame; empty if none does, else the one that explains most.
-std::optional<TrackResult> find_way_back(const SlamState& state,
-                                         std::span<const SurfaceMap> observed,
-                                         const Image<float>& depth, const SlamSettings& settings);
+/// Tries to track `observed` from where landmarks of the photograph place it among earlier views;
+/// from the last good pose; from where the camera is if it went on as before (for the first half
+/// second); and from the earlier views whose depth looks most like its own; each against the model
+/// as seen from there. A result counts if it explains most of the frame; empty if none does, else
+/// the one that explains most. Landmarks that lead to a result have the last word.
+std::optional<TrackResult> find_way_back(const SlamState& state, const ObservedFrame& observed,
+                                         const Image<EncodedRgb>& photo,
+                                         const SlamSettings& settings);
 
 }  // namespace inlay

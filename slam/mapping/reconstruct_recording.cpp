@@ -1,8 +1,10 @@
 #include "slam/mapping/reconstruct_recording.h"
 
 #include "recordings/base/check.h"
+#include "slam/landmarks/find_landmarks.h"
 #include "slam/mapping/advance_slam.h"
 #include "slam/mapping/color_camera.h"
+#include "slam/mapping/depth_scale.h"
 #include "slam/mapping/find_loops.h"
 #include "slam/mapping/observe_frame.h"
 #include "slam/track/se3.h"
@@ -19,6 +21,7 @@ constexpr double keyframe_distance = 0.25;  // m, from a keyframe to the next
 constexpr double keyframe_angle = 0.2;      // rad
 constexpr double drift_distance = 0.03;     // m, less is left to the depth sensor's own bends
 constexpr double drift_angle = 0.03;        // rad
+constexpr int calm_reach = 2;               // frames before and after one
 
 bool is_lost(const ReconstructedFrame& frame) {
     return frame.tracking.status == TrackingStatus::lost;
@@ -49,6 +52,15 @@ bool shows_more(const std::vector<LoopView>& views, const Pose& world_from_camer
            rotation_angle(last, world_from_camera) > keyframe_angle;
 }
 
+/// The last good frame as a view for loops.
+LoopView view_of(const SlamState& state, const Pose& world_from_camera) {
+    Image<float> depth(state.seen->lens.width, state.seen->lens.height);
+    for (std::size_t i = 0; i < depth.pixels.size(); ++i)
+        depth.pixels[i] = state.seen->position.pixels[i].z;
+    return make_loop_view(*state.seen, world_from_camera,
+                          find_landmarks(state.photograph, depth, state.seen->lens));
+}
+
 /// Tracks the next frame; one that cannot be read stays where the camera was.
 ReconstructedFrame first_look(SlamState& state, const FrameSource& source, int position,
                               const SlamSettings& settings, PoseSource poses) {
@@ -77,7 +89,7 @@ FirstPass first_pass(const FrameSource& source, const SlamSettings& settings, Po
         if (tracking.status != TrackingStatus::lost &&
             shows_more(pass.views, tracking.world_from_camera)) {
             pass.result.keyframes.push_back(i);
-            pass.views.push_back(make_loop_view(*state.seen, tracking.world_from_camera));
+            pass.views.push_back(view_of(state, tracking.world_from_camera));
         }
         pass.result.complete = go_on(i + 1);
     }
@@ -144,14 +156,12 @@ std::vector<Pose> neighbours_of(const Reconstruction& result, std::size_t lost) 
 }
 
 /// Tracks a frame against the finished model; keeps what it had where that fails.
-TrackResult track_again(const Reconstruction& before, std::size_t i, const RgbdFrame& frame,
+TrackResult track_again(const Reconstruction& before, std::size_t i, const ObservedFrame& observed,
                         const SlamSettings& settings) {
     const bool lost = is_lost(before.frames[i]);
     const std::vector<Pose> starts =
         lost ? neighbours_of(before, i)
              : std::vector<Pose>{before.frames[i].tracking.world_from_camera};
-    const ObservedFrame observed = observe_frame(frame, settings);
-    TrackResult best = before.frames[i].tracking;
     for (const Pose& start : starts) {
         const SurfaceMap model =
             raycast_volume(before.volume, observed.pyramid.front().lens, start, settings.raycast);
@@ -159,22 +169,71 @@ TrackResult track_again(const Reconstruction& before, std::size_t i, const RgbdF
             track_frame(observed.pyramid, model, std::span(&start, 1), settings.track);
         if (found.status == TrackingStatus::tracked) return found;
     }
-    return best;
+    return before.frames[i].tracking;
 }
 
-bool second_pass(Reconstruction& result, const FrameSource& source, const SlamSettings& settings,
-                 const GoOn& go_on) {
+/// The photograph of the frame at a position, as the color camera took it.
+SeenColor color_of(const Reconstruction& result, std::size_t i, const RgbdFrame& frame) {
+    const ColorCamera camera = color_camera_of(result, int(i), frame.lens);
+    return {frame.color, camera.lens, camera.color_from_depth};
+}
+
+/// What the finished model says of a frame: where its camera was, and how it was exposed.
+struct LastLook {
+    TrackResult tracking;
+    Exposure exposure;
+};
+
+LastLook last_look(const Reconstruction& before, std::size_t i, const RgbdFrame& frame,
+                   const SlamSettings& settings, PoseSource poses) {
+    ObservedFrame observed = observe_frame(frame, settings);
+    LastLook look{before.frames[i].tracking, {}};
+    if (poses == PoseSource::tracked) look.tracking = track_again(before, i, observed, settings);
+    if (!settings.follow_exposure || look.tracking.status == TrackingStatus::lost) return look;
+    SurfaceMap& seen = observed.pyramid.front();
+    seen.world_from_camera = look.tracking.world_from_camera;
+    look.exposure = measure_exposure(before.volume, seen, color_of(before, i, frame));
+    return look;
+}
+
+/// The median of each frame's gain and those of its neighbours, so that virtual objects do not
+/// flicker with what single frames get wrong.
+void calm_gains(std::vector<ReconstructedFrame>& frames) {
+    std::vector<Rgb> gains;
+    for (const ReconstructedFrame& frame : frames)
+        gains.push_back(frame.gain);
+    const int last = int(gains.size()) - 1;
+    for (int i = 0; i <= last; ++i) {
+        const int reach = std::min({calm_reach, i, last - i});
+        for (int channel = 0; channel < 3; ++channel) {
+            std::vector<float> around;
+            for (int j = i - reach; j <= i + reach; ++j)
+                around.push_back(gains[std::size_t(j)][channel]);
+            std::nth_element(around.begin(), around.begin() + reach, around.end());
+            frames[std::size_t(i)].gain[channel] = around[std::size_t(reach)];
+        }
+    }
+}
+
+/// Looks at every frame once more with the finished model. False if it was stopped.
+bool last_pass(Reconstruction& result, const FrameSource& source, const SlamSettings& settings,
+               PoseSource poses, const GoOn& go_on) {
     const Reconstruction& before = result;
-    std::vector<TrackResult> after;
+    std::vector<LastLook> looks;
     for (int i = 0; i < source.count(); ++i) {
         const ReconstructedFrame& frame = before.frames[std::size_t(i)];
-        after.push_back(frame.readable
-                            ? track_again(before, std::size_t(i), source.load(i), settings)
-                            : frame.tracking);
+        looks.push_back(frame.readable
+                            ? last_look(before, std::size_t(i), source.load(i), settings, poses)
+                            : LastLook{frame.tracking, {}});
         if (!go_on(i + 1)) return false;
     }
-    for (std::size_t i = 0; i < after.size(); ++i)
-        result.frames[i].tracking = after[i];
+    Exposure exposure;
+    for (std::size_t i = 0; i < looks.size(); ++i) {
+        result.frames[i].tracking = looks[i].tracking;
+        update_exposure(exposure, looks[i].exposure);
+        result.frames[i].gain = exposure.gain;
+    }
+    calm_gains(result.frames);
     return true;
 }
 
@@ -183,12 +242,16 @@ bool second_pass(Reconstruction& result, const FrameSource& source, const SlamSe
 bool fuse_recording(Reconstruction& result, const FrameSource& source, const SlamSettings& settings,
                     const GoOn& go_on) {
     result.volume = make_volume(settings.fusion);
+    Exposure exposure;
     for (std::size_t i = 0; i < result.frames.size(); ++i) {
         if (const std::optional<Pose>& pose = result.frames[i].fused_at) {
             const RgbdFrame frame = source.load(int(i));
-            const ColorCamera camera = color_camera_of(result, int(i), frame.lens);
-            fuse_surface(result.volume, own_surface(frame, *pose, settings.depth),
-                         {frame.color, camera.lens, camera.color_from_depth}, settings.fusion);
+            const SurfaceMap seen = own_surface(frame, *pose, settings.depth);
+            SeenColor color = color_of(result, i, frame);
+            if (settings.follow_exposure)
+                update_exposure(exposure, measure_exposure(result.volume, seen, color));
+            color.gain = exposure.measured;
+            fuse_surface(result.volume, seen, color, settings.fusion);
         }
         if (!go_on(int(i) + 1)) return false;
     }
@@ -198,6 +261,7 @@ bool fuse_recording(Reconstruction& result, const FrameSource& source, const Sla
 Reconstruction reconstruct_recording(const FrameSource& source, const SlamSettings& settings,
                                      PoseSource poses, const GoOn& go_on) {
     validate(settings);
+    if (settings.check_scale) check_depth_scale(source);
     if (!settings.look_ahead) return first_pass(source, settings, poses, go_on).result;
     const SlamSettings first = first_pass_of(settings);
     FirstPass pass = first_pass(source, first, poses, go_on);
@@ -210,12 +274,10 @@ Reconstruction reconstruct_recording(const FrameSource& source, const SlamSettin
         if (!is_lost(frame)) frame.fused_at = frame.tracking.world_from_camera;
     if (settings.register_color) result.registration = register_recording(result, source, settings);
     result.complete = fuse_recording(result, source, settings, go_on);
-    if (result.complete && poses == PoseSource::tracked) {
-        SlamSettings second = settings;
-        second.track.noisy_angle =
-            settings.track.coarse_angle;  // the model has its noise behind it
-        result.complete = second_pass(result, source, second, go_on);
-    }
+    if (!result.complete) return std::move(result);
+    SlamSettings last = settings;
+    last.track.noisy_angle = settings.track.coarse_angle;  // the model has its noise behind it
+    result.complete = last_pass(result, source, last, poses, go_on);
     return std::move(result);
 }
 

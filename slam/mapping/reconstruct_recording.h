@@ -13,7 +13,7 @@
 
 namespace inlay {
 
-/// A recording's frames, in order; each is loaded up to four times.
+/// A recording's frames, in order; each is loaded up to five times.
 struct FrameSource {
     std::vector<int> numbers;                     // the recording's own
     std::vector<double> times;                    // s
@@ -28,6 +28,7 @@ struct ReconstructedFrame {
     double time = 0;  // s
     TrackResult tracking;
     std::optional<Pose> fused_at;  // world_from_camera; empty: it is not in the model
+    Rgb gain{1};                   // linear photograph / what the model's exposure would record
     bool readable = true;          // false: lost, and tracking.why says what is wrong with it
 };
 
@@ -55,7 +56,8 @@ using GoOn = std::function<bool(int frames)>;
 /// against that: so early frames see what later ones found out, and lost ones may be found. How the
 /// color images lie to the depth images is estimated before the second fusion, which heeds it. With
 /// recorded poses, frames that have none are lost. Same bytes for any number of threads.
-/// Frames that cannot be read are lost. Throws Error for settings out of range.
+/// Frames that cannot be read are lost. Throws Error for settings out of range, and for depth of
+/// another scale (check_depth_scale()) if the settings ask for that.
 Reconstruction reconstruct_recording(const FrameSource& source, const SlamSettings& settings,
                                      PoseSource poses, const GoOn& go_on);
 

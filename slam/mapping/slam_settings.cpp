@@ -34,6 +34,7 @@ void validate(const SlamSettings& settings) {
     validate(settings.fusion);
     validate(settings.raycast);
     validate(settings.track);
+    validate(settings.edges);
 }
 
 }  // namespace inlay

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "slam/depth/filter_depth.h"
+#include "slam/edges/follow_photograph.h"
 #include "slam/track/track_frame.h"
 #include "slam/volume/fuse_depth.h"
 #include "slam/volume/raycast_volume.h"
@@ -13,9 +14,12 @@ struct SlamSettings {
     FusionSettings fusion;
     RaycastSettings raycast;
     TrackSettings track;
+    EdgeSettings edges;
     bool half_resolution = false;  // of depth, for tracking, and for fusing as frames come
     bool look_ahead = true;        // reconstruct_recording() goes over the recording again,
     bool register_color = true;    // and then aligns color with depth where a check says so
+    bool check_scale = true;       // of depth, before a recording is reconstructed
+    bool follow_exposure = true;   // measures how the camera's exposure changes
 };
 
 /// Settings for --slam accurate (the defaults of every stage) and fast (half resolution, larger

@@ -2,7 +2,9 @@
 
 #include "recordings/base/check.h"
 #include "slam/track/constrained_step.h"
+#include "slam/track/filled_step.h"
 #include "slam/track/icp_system.h"
+#include "slam/track/photometric_system.h"
 #include "slam/track/se3.h"
 
 #include <algorithm>
@@ -14,6 +16,39 @@ namespace {
 constexpr double still_rotation = 2e-5;     // rad; smaller steps end a level
 constexpr double still_translation = 2e-5;  // m
 constexpr float least_scale = 0.3f;         // of depth_sigma(): below lies quantisation
+
+/// The brightness of both photographs at every level, made when a level first asks for it.
+class BrightnessLevels {
+public:
+    BrightnessLevels(std::span<const SurfaceMap> observed, const Photographs* photographs)
+        : photographs_(photographs) {
+        for (const SurfaceMap& level : observed)
+            lenses_.push_back(level.lens);
+    }
+
+    bool there() const {
+        return photographs_ && !photographs_->observed.empty() && !photographs_->model.empty();
+    }
+    const BrightnessMap& observed(int level) {
+        make();
+        return observed_[std::size_t(level)];
+    }
+    const BrightnessMap& model(int level) {
+        make();
+        return model_[std::size_t(level)];
+    }
+
+private:
+    void make() {
+        if (!observed_.empty()) return;
+        observed_ = brightness_pyramid(photographs_->observed, lenses_);
+        model_ = brightness_pyramid(photographs_->model, lenses_);
+    }
+
+    const Photographs* photographs_;
+    std::vector<Lens> lenses_;
+    std::vector<BrightnessMap> observed_, model_;
+};
 
 /// A pose being improved.
 struct Attempt {
@@ -30,8 +65,34 @@ PairingSettings pairing_of(int level, const TrackSettings& settings) {
             std::cos(between(settings.fine_angle, settings.coarse_angle)), 1};
 }
 
-void solve_level(Attempt& attempt, const SurfaceMap& observed, const SurfaceMap& model,
-                 PairingSettings pairing, const TrackSettings& settings) {
+/// What is seen and what it is compared with.
+struct Views {
+    std::span<const SurfaceMap> observed;  // finest first
+    const SurfaceMap& model;
+    BrightnessLevels brightness;
+};
+
+/// The surfaces' step, filled in by brightness where they leave directions free.
+Twist next_step(const Pose& model_from_observed, Views& views, int level,
+                const PairingSettings& pairing, const TrackSettings& settings) {
+    const SurfaceMap& surface = views.observed[std::size_t(level)];
+    const IcpSystem system = icp_system(surface, views.model, model_from_observed, pairing);
+    const ConstrainedStep step = constrained_step(system, double(settings.least_information));
+    if (step.free_axes == 0 || !views.brightness.there()) return step.twist;
+    const SeenBrightness observed{surface, views.brightness.observed(level)};
+    const SeenBrightness model{views.model, views.brightness.model(level)};
+    BrightnessSettings brightness;
+    brightness.distance = pairing.distance;
+    brightness = adapted(brightness, observed, model, model_from_observed);
+    const PhotometricSystem light =
+        photometric_system(observed, model, model_from_observed, brightness);
+    return filled_step(step, system, light, {}).twist;
+}
+
+void solve_level(Attempt& attempt, Views& views, int level, const TrackSettings& settings) {
+    const SurfaceMap& observed = views.observed[std::size_t(level)];
+    const SurfaceMap& model = views.model;
+    PairingSettings pairing = pairing_of(level, settings);
     PairingSettings wide = pairing;
     wide.cosine = std::cos(settings.coarse_angle);
     const float noise = median_angle(observed, model, attempt.model_from_observed, wide);
@@ -39,13 +100,12 @@ void solve_level(Attempt& attempt, const SurfaceMap& observed, const SurfaceMap&
     for (int i = 0; i < settings.iterations; ++i) {
         const float scale = residual_scale(observed, model, attempt.model_from_observed, pairing);
         pairing.scale = std::max(scale, least_scale);
-        const IcpSystem system = icp_system(observed, model, attempt.model_from_observed, pairing);
-        const ConstrainedStep step = constrained_step(system, double(settings.least_information));
+        const Twist step = next_step(attempt.model_from_observed, views, level, pairing, settings);
         attempt.model_from_observed =
-            orthonormalized(exponential(step.twist) * attempt.model_from_observed);
+            orthonormalized(exponential(step) * attempt.model_from_observed);
         ++attempt.iterations;
-        if (glm::length(step.twist.rotation) < still_rotation &&
-            glm::length(step.twist.translation) < still_translation) {
+        if (glm::length(step.rotation) < still_rotation &&
+            glm::length(step.translation) < still_translation) {
             break;
         }
     }
@@ -60,17 +120,16 @@ IcpSystem verdict(const Attempt& attempt, const SurfaceMap& observed, const Surf
     return icp_system(observed, model, attempt.model_from_observed, pairing);
 }
 
-Attempt best_attempt(std::span<const SurfaceMap> observed, const SurfaceMap& model,
-                     std::span<const Pose> starts, const TrackSettings& settings) {
-    const int coarsest = int(observed.size()) - 1;
-    const SurfaceMap& level = observed[std::size_t(coarsest)];
+Attempt best_attempt(Views& views, std::span<const Pose> starts, const TrackSettings& settings) {
+    const int coarsest = int(views.observed.size()) - 1;
+    const SurfaceMap& level = views.observed[std::size_t(coarsest)];
     Attempt best;
     int most = -1;
     for (const Pose& start : starts) {
-        const Pose model_from_observed = inverse(model.world_from_camera) * start;
+        const Pose model_from_observed = inverse(views.model.world_from_camera) * start;
         Attempt attempt{model_from_observed, model_from_observed};
-        solve_level(attempt, level, model, pairing_of(coarsest, settings), settings);
-        const int inliers = verdict(attempt, level, model, coarsest, settings).inliers;
+        solve_level(attempt, views, coarsest, settings);
+        const int inliers = verdict(attempt, level, views.model, coarsest, settings).inliers;
         if (inliers <= most) continue;
         most = inliers;
         best = attempt;
@@ -134,12 +193,12 @@ void validate(const TrackSettings& s) {
 }
 
 TrackResult track_frame(std::span<const SurfaceMap> observed, const SurfaceMap& model,
-                        std::span<const Pose> starts, const TrackSettings& settings) {
-    Attempt attempt = best_attempt(observed, model, starts, settings);
-    for (int level = int(observed.size()) - 2; level >= 0; --level) {
-        solve_level(attempt, observed[std::size_t(level)], model, pairing_of(level, settings),
-                    settings);
-    }
+                        std::span<const Pose> starts, const TrackSettings& settings,
+                        const Photographs* photographs) {
+    Views views{observed, model, BrightnessLevels(observed, photographs)};
+    Attempt attempt = best_attempt(views, starts, settings);
+    for (int level = int(observed.size()) - 2; level >= 0; --level)
+        solve_level(attempt, views, level, settings);
     const IcpSystem system = verdict(attempt, observed.front(), model, 0, settings);
     TrackResult result;
     result.world_from_camera =

@@ -1,6 +1,7 @@
 // Coarse-to-fine frame-to-model ICP: where the camera is.
 #pragma once
 
+#include "recordings/base/color.h"
 #include "recordings/base/surface_map.h"
 
 #include <span>
@@ -40,14 +41,24 @@ struct TrackSettings {
     float largest_residual = 0.02f;   // m, rms; above: lost
 };
 
+/// Photographs for views whose surfaces leave the camera free to move. They are looked at only
+/// there; empty ones say nothing.
+struct Photographs {
+    const Image<EncodedRgb>& observed;  // by the camera that is looked for
+    const Image<EncodedRgb>& model;     // from the pose of the model
+};
+
 /// Throws Error that names the setting which is out of range.
 void validate(const TrackSettings& settings);
 
 /// Finds the camera that saw `observed` (a pyramid, finest first; its poses are not used) in the
 /// frame of `model`, from each of `starts` (world_from_camera): the coarsest level is solved from
 /// each, and the start that explains most points is refined. Directions in which the views do not
-/// constrain the motion stay as the start had them (Zhang, Kaess and Singh 2016, Sec. IV).
+/// constrain the motion are left to the photographs, if there are some (as large as the finest
+/// level, or halves of theirs are); where those say nothing either, they stay as the start had them
+/// (Zhang, Kaess and Singh 2016, Sec. IV).
 TrackResult track_frame(std::span<const SurfaceMap> observed, const SurfaceMap& model,
-                        std::span<const Pose> starts, const TrackSettings& settings);
+                        std::span<const Pose> starts, const TrackSettings& settings,
+                        const Photographs* photographs = nullptr);
 
 }  // namespace inlay

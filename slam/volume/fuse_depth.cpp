@@ -15,6 +15,7 @@ namespace inlay {
 namespace {
 
 constexpr float most_color_weight = 64;  // observations; then the mean slides
+constexpr int clipped = 250;             // byte from which on a channel may have been brighter
 
 /// What one pixel says about the space around its surface. All zero: nothing.
 struct PixelPlane {
@@ -32,6 +33,7 @@ struct Observation {
     CameraView color_view;
     glm::mat3 color_rotation;
     glm::vec3 color_translation;  // m, from the depth camera's frame to the color camera's
+    Rgb color_scale;              // undoes the photograph's gain
     glm::mat3 camera_from_world;
     glm::vec3 translation;  // m, of camera_from_world
 };
@@ -53,6 +55,7 @@ Observation observe(const SurfaceMap& surface, const SeenColor& color,
                      color.image.empty() ? CameraView{} : camera_view(color.lens),
                      glm::mat3(color.color_from_depth.rotation),
                      glm::vec3(color.color_from_depth.translation),
+                     1.0f / color.gain,
                      glm::mat3(camera_from_world.rotation),
                      glm::vec3(camera_from_world.translation)};
     parallel_rows(lens.height, [&](int y) {
@@ -65,11 +68,17 @@ Observation observe(const SurfaceMap& surface, const SeenColor& color,
     return seen;
 }
 
-void fold_color(Brick& brick, std::size_t slot, const Rgb& color) {
+/// A clipped channel says that its color is no less: where one is known already, it can only raise
+/// it.
+void fold_color(Brick& brick, std::size_t slot, const EncodedRgb& pixel, const Rgb& scale) {
     const float old = brick.color_weight[slot];
+    const Rgb color = 65535.0f * decode(pixel) * scale;
+    const std::array<int, 3> bytes{pixel.r, pixel.g, pixel.b};
     for (int i = 0; i < 3; ++i) {
         std::uint16_t& channel = brick.color[std::size_t(i)][slot];
-        const float mean = (old * float(channel) + 65535.0f * color[i]) / (old + 1);
+        const bool at_least = old > 0 && bytes[std::size_t(i)] >= clipped;
+        const float value = at_least ? std::max(color[i], float(channel)) : color[i];
+        const float mean = (old * float(channel) + value) / (old + 1);
         channel = std::uint16_t(std::clamp(mean, 0.0f, 65535.0f) + 0.5f);
     }
     brick.color_weight[slot] = std::uint16_t(std::min(old + 1, most_color_weight));
@@ -82,7 +91,8 @@ void fold_colors(Brick& brick, std::size_t slot, const Vectors& p, const Lanes& 
         seen.color_view.pixels_of(transformed(seen.color_rotation, p, seen.color_translation));
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
         if (!near[lane] || !at.seen[lane]) continue;
-        fold_color(brick, slot + lane, decode(seen.color.pixels[std::size_t(at.pixel[lane])]));
+        fold_color(brick, slot + lane, seen.color.pixels[std::size_t(at.pixel[lane])],
+                   seen.color_scale);
     }
 }
 

@@ -30,6 +30,7 @@ struct SeenColor {
     const Image<EncodedRgb>& image;  // may be empty
     Lens lens;                       // of the image
     Pose color_from_depth;           // from the depth camera's frame to the color camera's
+    Rgb gain{1};                     // linear photograph / what the model's exposure would record
 };
 
 /// Folds the surface that a frame saw, at its pose, into every voxel within the truncation of the

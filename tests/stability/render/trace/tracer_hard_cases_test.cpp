@@ -195,10 +195,10 @@ TEST(HardGeometry, DepthThatIsNoDepth) {
 TEST(HardGeometry, TheSamplerRaisesNoFloatingPointException) {
     RealGeometry real = no_real_geometry();
     real.primary = [](const RayPacket& rays, const auto&) {
-        std::array<RealPrimaryHit, packet_width> hits;
+        RealPrimaryHits hits;
         for (std::size_t i = 0; i < packet_width; ++i) {
             if (rays.has(int(i)) && rays.direction[i].y < 0)
-                hits[i] = {1, rays.direction[i], glm::vec3(0, 1, 0)};
+                hits.pixel[i] = {1, rays.direction[i], glm::vec3(0, 1, 0)};
         }
         return hits;
     };

@@ -136,9 +136,9 @@ TEST(TwoModes, IndirectLightCarriesTheFactorPi) {
     for (const double share : {1.0, 0.5}) {
         RealGeometry real = no_real_geometry();
         real.primary = [](const RayPacket& rays, const auto&) {
-            std::array<RealPrimaryHit, packet_width> hits;
+            RealPrimaryHits hits;
             for (std::size_t i = 0; i < packet_width; ++i)
-                hits[i] = {1, rays.origin[i] + rays.direction[i], {0, 1, 0}};
+                hits.pixel[i] = {1, rays.origin[i] + rays.direction[i], {0, 1, 0}};
             return hits;
         };
         real.radiances = [share](const RayPacket& rays, const SampleKeys&) {

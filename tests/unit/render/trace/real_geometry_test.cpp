@@ -39,7 +39,7 @@ TEST(MeshRealGeometry, CameraRaysMeetTheSurfaceMapAndMissItsHoles) {
         rays.set(lane, {0, 0, 4},
                  glm::vec3(glm::normalize(wall.map.world_from_camera.rotation * d)));
     }
-    const auto hits = real.primary(rays, pixels);
+    const auto hits = real.primary(rays, pixels).pixel;
     const glm::dvec3 expected = wall.map.world_from_camera * glm::dvec3(wall.map.position(1, 2));
     EXPECT_TRUE(near(hits[0].position, expected, 1e-5));
     EXPECT_TRUE(near(hits[0].normal, {0, 0, 1}, 1e-6));
@@ -97,7 +97,7 @@ TEST(ExactRealGeometry, ShinesAsThePathTracerSays) {
     EXPECT_EQ(hits.radiance[0], Rgb(0));
     EXPECT_EQ(hits.radiance[1], Rgb(0));
     EXPECT_EQ(hits.distance[1], no_hit);
-    const auto primary = real.primary(rays, {});
+    const auto primary = real.primary(rays, {}).pixel;
     EXPECT_EQ(primary[0].normal, glm::vec3(0, 1, 0));
     EXPECT_EQ(primary[1].distance, no_hit);
 }

@@ -93,7 +93,7 @@ TEST(ScreenRealGeometry, PrimaryHitsLieOnTheSurfaceSeen) {
                      glm::vec3(world_from_camera.rotation *
                                glm::normalize(unproject(seen.map.lens, at))));
         }
-        const auto hits = real.primary(rays, pixels);
+        const auto hits = real.primary(rays, pixels).pixel;
         for (std::size_t i = 0; i < packet_width; ++i) {
             if (!seen.map.has_surface(pixels[i].x, pixels[i].y)) {
                 EXPECT_EQ(hits[i].distance, no_hit);

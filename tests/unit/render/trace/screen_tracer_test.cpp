@@ -104,7 +104,7 @@ TEST(ScreenTracer, APlaneDoesNotShadowItself) {
             camera.set(0, glm::vec3(0), glm::vec3(view));
             std::array<glm::ivec2, packet_width> pixels{};
             pixels[0] = glm::ivec2(glm::round(project(lens, ray.origin)));
-            const RealPrimaryHit start = map_primary(map, camera, pixels)[0];
+            const RealPrimaryHit start = map_primary(map, camera, pixels).pixel[0];
             EXPECT_NEAR(glm::dot(normal, glm::dvec3(start.position)), -0.7, 1e-5);
             const ScreenHit hit =
                 trace_screen(pyramid, {glm::dvec3(start.position) + 1e-4 * normal, ray.direction});

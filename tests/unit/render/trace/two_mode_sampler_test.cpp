@@ -180,8 +180,8 @@ TEST(TwoModeSampler, OccluderRatesAreTheLargestCosineOverDistance) {
     };
     RealGeometry real = no_real_geometry();
     real.primary = [](const RayPacket&, const auto&) {
-        std::array<RealPrimaryHit, packet_width> hits;
-        hits.fill({1, glm::vec3(0), glm::vec3(0, 1, 0)});
+        RealPrimaryHits hits;
+        hits.pixel.fill({1, glm::vec3(0), glm::vec3(0, 1, 0)});
         return hits;
     };
     real.distances = [&](const RayPacket& rays) { return widen(shadow_rate, rays); };
@@ -201,8 +201,8 @@ TEST(TwoModeSampler, OccluderRatesAreTheLargestCosineOverDistance) {
 TEST(TwoModeSampler, OccludersOfWeakLightAndAtTheFloorDoNotNarrowTheFilter) {
     RealGeometry real = no_real_geometry();
     real.primary = [](const RayPacket&, const auto&) {
-        std::array<RealPrimaryHit, packet_width> hits;
-        hits.fill({2, glm::vec3(0), glm::vec3(0, 1, 0)});
+        RealPrimaryHits hits;
+        hits.pixel.fill({2, glm::vec3(0), glm::vec3(0, 1, 0)});
         return hits;
     };
     real.distances = [](const RayPacket&) {
