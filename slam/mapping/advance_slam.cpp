@@ -12,6 +12,9 @@
 namespace inlay {
 namespace {
 
+constexpr double expected_distance = 0.03;  // m, of a weak frame from where it is expected
+constexpr double expected_angle = 0.05;     // rad
+
 TrackResult certain(const Pose& world_from_camera) {
     return {world_from_camera, TrackingStatus::tracked, 1, 0, 0, 1};
 }
@@ -52,6 +55,27 @@ TrackResult locate(const SlamState& state, const RgbdFrame& frame, const Observe
     return track(state, frame, observed, settings);
 }
 
+/// Whether a result may change the model.
+bool trusted(const SlamState& state, const TrackResult& tracking) {
+    if (tracking.status == TrackingStatus::tracked) return true;
+    if (tracking.status == TrackingStatus::lost || !state.model) return false;
+    const std::vector<Pose> expected = predictions(state);
+    return std::any_of(expected.begin(), expected.end(), [&](const Pose& pose) {
+        const Pose off = inverse(pose) * tracking.world_from_camera;
+        return glm::length(off.translation) < expected_distance &&
+               rotation_angle(Pose{}, off) < expected_angle;
+    });
+}
+
+/// Goes on from a pose that is not trusted enough to change the model.
+void follow(SlamState& state, const Pose& world_from_camera, const SlamSettings& settings) {
+    state.model =
+        raycast_volume(state.volume, state.seen->lens, world_from_camera, settings.raycast);
+    state.photograph = {};
+    state.before_last.reset();
+    state.frames_lost = 0;
+}
+
 void learn(SlamState& state, const RgbdFrame& frame, ObservedFrame observed,
            const Pose& world_from_camera, const SlamSettings& settings) {
     state.before_last.reset();
@@ -86,21 +110,23 @@ TrackResult track_and_fuse(SlamState& state, const RgbdFrame& frame, const SlamS
     ObservedFrame observed = observe_frame(frame, settings);
     TrackResult tracking = known_world_from_camera ? certain(*known_world_from_camera)
                                                    : locate(state, frame, observed, settings);
-    if (tracking.status == TrackingStatus::lost) {
-        ++state.frames_lost;
-    } else {
+    state.fused = trusted(state, tracking);
+    if (state.fused)
         learn(state, frame, std::move(observed), tracking.world_from_camera, settings);
-    }
+    else if (tracking.status == TrackingStatus::weak)
+        follow(state, tracking.world_from_camera, settings);
+    else
+        ++state.frames_lost;
     return tracking;
 }
 
 SlamStep advance_slam(SlamState& state, const RgbdFrame& frame, const SlamSettings& settings,
                       const std::optional<Pose>& known_world_from_camera) {
     SlamStep step{track_and_fuse(state, frame, settings, known_world_from_camera), {}};
-    const bool lost = step.tracking.status == TrackingStatus::lost;
     const bool at_full_size = state.model && state.model->lens.width == frame.lens.width;
-    step.surface = !lost && at_full_size ? completed(*state.model, *state.seen, settings.raycast)
-                                         : see_model(state.volume, frame, step.tracking, settings);
+    step.surface = state.fused && at_full_size
+                       ? completed(*state.model, *state.seen, settings.raycast)
+                       : see_model(state.volume, frame, step.tracking, settings);
     step.gain = state.exposure.gain;
     return step;
 }

@@ -15,10 +15,11 @@ namespace inlay {
 /// Everything that survives from frame to frame.
 struct SlamState {
     VoxelVolume volume;
-    std::optional<SurfaceMap> seen;   // what the last good frame itself saw; empty before the first
-    Image<EncodedRgb> photograph;     // taken there
-    std::optional<SurfaceMap> model;  // raycast from its pose
-    std::optional<Pose> before_last;  // world_from_camera of the good frame before it
+    std::optional<SurfaceMap> seen;  // what the last fused frame itself saw; empty before the first
+    std::optional<SurfaceMap> model;  // raycast from the pose of the last frame that is not lost
+    Image<EncodedRgb> photograph;     // taken there; empty if that frame was not fused
+    std::optional<Pose> before_last;  // world_from_camera of the fused frame before, if both were
+    bool fused = false;               // whether the last frame is in the model
     std::vector<Keyframe> keyframes;  // for finding the way back
     int frames_lost = 0;              // since the last good one
     Exposure exposure;                // of the last frame that could tell
@@ -34,9 +35,10 @@ SlamState start_slam(const SlamSettings& settings);
 
 /// Tracks one frame and fuses it. With a known pose nothing is tracked. Else the first frame is
 /// anchored at its recorded pose, or at the identity, and every later one is tracked against the
-/// model; recorded poses are not used again. A frame that is lost changes nothing in the model: its
-/// pose is the last good one, and the following frames look for the way back from there and from
-/// earlier views. Throws Error if the frame's images do not have the lens's size.
+/// model; recorded poses are not used again. Frames are fused if their pose can be trusted: if they
+/// are tracked, or weakly so and where the camera was expected. A frame that is lost has the last
+/// good pose, and the following frames look for the way back from there and from earlier views.
+/// Throws Error if the frame's images do not have the lens's size.
 TrackResult track_and_fuse(SlamState& state, const RgbdFrame& frame, const SlamSettings& settings,
                            const std::optional<Pose>& known_world_from_camera);
 

@@ -2,8 +2,10 @@
 
 #include "slam/landmarks/match_landmarks.h"
 #include "slam/track/icp_system.h"
+#include "slam/track/se3.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -18,6 +20,8 @@ constexpr int most_loops = 4;             // that end at one view: the oldest
 constexpr std::size_t views_matched = 5;  // that have most landmarks in common
 constexpr float least_overlap = 0.3f;     // of a view with the other
 constexpr float least_inliers = 0.6f;     // share of the overlap
+constexpr std::array<double, 3> shares_of_motion{0.33, 0.67,
+                                                 1};  // from the view before to the last
 constexpr PairingSettings wide{0.3f, 0.8f, 1};
 constexpr PairingSettings close{0.04f, 0.8f, 1};
 
@@ -121,7 +125,12 @@ std::vector<PoseEdge> chain_edges(std::span<const LoopView> views, const TrackSe
         const Pose &before = views[std::size_t(i) - 1].world_from_camera,
                    &now = views[std::size_t(i)].world_from_camera;
         std::vector<Pose> starts{now};
-        if (!edges.empty()) starts.push_back(before * edges.back().motion);  // gone on as before
+        if (!edges.empty()) {
+            const Twist motion = logarithm(edges.back().motion);
+            for (const double share : shares_of_motion)
+                starts.push_back(
+                    before * exponential({share * motion.rotation, share * motion.translation}));
+        }
         const auto found = try_pair(i - 1, i, views, starts, of_views(settings));
         edges.push_back(found ? *found : edge_of(i - 1, i, inverse(before) * now, views));
     }

@@ -75,6 +75,7 @@ ReconstructedFrame first_look(SlamState& state, const FrameSource& source, int p
         result.tracking.why = error.what();
         if (state.model) result.tracking.world_from_camera = state.model->world_from_camera;
     }
+    if (!is_lost(result) && state.fused) result.fused_at = result.tracking.world_from_camera;
     return result;
 }
 
@@ -86,7 +87,7 @@ FirstPass first_pass(const FrameSource& source, const SlamSettings& settings, Po
     for (int i = 0; i < source.count() && pass.result.complete; ++i) {
         pass.result.frames.push_back(first_look(state, source, i, settings, poses));
         const TrackResult& tracking = pass.result.frames.back().tracking;
-        if (tracking.status != TrackingStatus::lost &&
+        if (pass.result.frames.back().fused_at &&
             shows_more(pass.views, tracking.world_from_camera)) {
             pass.result.keyframes.push_back(i);
             pass.views.push_back(view_of(state, tracking.world_from_camera));
@@ -271,7 +272,7 @@ Reconstruction reconstruct_recording(const FrameSource& source, const SlamSettin
     pass.views.clear();
     result.volume = {};  // room for what follows
     for (ReconstructedFrame& frame : result.frames)
-        if (!is_lost(frame)) frame.fused_at = frame.tracking.world_from_camera;
+        if (frame.fused_at) frame.fused_at = frame.tracking.world_from_camera;  // loops moved it
     if (settings.register_color) result.registration = register_recording(result, source, settings);
     result.complete = fuse_recording(result, source, settings, go_on);
     if (!result.complete) return std::move(result);

@@ -1,5 +1,6 @@
 // A recording gone over again: loops close, lost frames are found, early frames know what later
 // ones saw.
+#include "slam/mapping/advance_slam.h"
 #include "slam/mapping/reconstruct_recording.h"
 #include "slam/mapping/trajectory_error.h"
 #include "tests/unit/slam/four_walls.h"
@@ -67,6 +68,55 @@ TEST(ReconstructRecording, ALoopAlongFourWallsCloses) {
     EXPECT_LT(after, before / 3);
     EXPECT_LT(absolute_error(poses_of(result), true_path()).rms,
               absolute_error(poses_of(chain), true_path()).rms);
+}
+
+/// Depth that is 0.5 % too large at the sides: the drift of a turn is farther than ICP reaches, and
+/// only what is painted on the walls tells that the camera is back.
+TEST(ReconstructRecording, ALoopBeyondReachOfIcpClosesByLandmarks) {
+    constexpr int turn = 200, count = 212;
+    const auto pose_at = [](int i) { return test::around_the_room(double(i) / turn); };
+    const auto walk_with = [&](const Lens& lens, bool painted) {
+        return test::frames_from(count, [=](int i) {
+            RgbdFrame frame = test::wall_frame(i, pose_at(i), 1, 0.005, lens, painted);
+            if (i == 0) frame.recorded_world_from_camera = pose_at(0);
+            return frame;
+        });
+    };
+    std::vector<Pose> truth;
+    for (int i = 0; i < count; ++i)
+        truth.push_back(pose_at(i));
+    SlamSettings once = first_pass_of(accurate_slam());
+    const Reconstruction chain = reconstruct_recording(walk_with(test::small_lens(), false), once,
+                                                       PoseSource::tracked, to_the_end);
+    const Reconstruction result =
+        reconstruct_recording(walk_with(scaled(test::small_lens(), 320, 240), true),
+                              accurate_slam(), PoseSource::tracked, to_the_end);
+    const double before = absolute_error(poses_of(chain), truth).rms;
+    const double after = absolute_error(poses_of(result), truth).rms;
+    RecordProperty("ate_before_mm", int(1000 * before));
+    RecordProperty("ate_after_mm", int(1000 * after));
+    EXPECT_GT(before, 0.15);  // beyond ICP
+    EXPECT_FALSE(result.loops.empty());
+    EXPECT_LT(after, before / 3);
+}
+
+/// The camera comes back upside down to where it started, which no turned start is near to.
+TEST(FindWayBack, LandmarksFindACameraThatIsTurnedRound) {
+    const Lens lens = scaled(test::small_lens(), 320, 240);
+    const SlamSettings settings = first_pass_of(accurate_slam());
+    SlamState state = start_slam(settings);
+    const auto show = [&](int i, const Pose& pose) {
+        RgbdFrame frame = test::wall_frame(i, pose, 1, 0, lens, true);
+        if (i == 0) frame.recorded_world_from_camera = pose;
+        return track_and_fuse(state, frame, settings, std::nullopt);
+    };
+    for (int i = 0; i < 40; ++i)
+        ASSERT_EQ(show(i, test::around_the_room(i / 300.0)).status, TrackingStatus::tracked) << i;
+    const Pose turned = test::around_the_room(0) * test::posed({0, 0, 2.5}, {0.05, 0, 0});
+    const TrackResult found = show(40, turned);
+    ASSERT_EQ(found.status, TrackingStatus::tracked) << found.why;
+    EXPECT_LT(glm::length(found.world_from_camera.translation - turned.translation), 0.02);
+    EXPECT_LT(rotation_angle(found.world_from_camera, turned), 0.01);
 }
 
 TEST(ReconstructRecording, WithoutDriftThereIsNothingToClose) {

@@ -1,12 +1,16 @@
 // Recordings that a tracker must survive, and say so where it cannot follow.
+#include "recordings/base/check.h"
 #include "recordings/base/parallel.h"
 #include "slam/mapping/advance_slam.h"
+#include "slam/mapping/depth_scale.h"
 #include "tests/unit/slam/analytic_room.h"
 
 #include <gtest/gtest.h>
 
 #include <cfenv>
 #include <limits>
+#include <numeric>
+#include <string>
 
 namespace inlay {
 namespace {
@@ -114,12 +118,94 @@ TEST_F(SlamHardCases, DenormalDepthIsNotMeasured) {
 }
 
 TEST_F(SlamHardCases, AModelWithoutRoomSaysSoAndGoesOn) {
-    settings.fusion.memory = 8;
-    state = start_slam(settings);
+    for (const auto& [memory, voxel] : {std::pair{8, 0.008f}, {64, 0.003f}}) {
+        settings.fusion.memory = memory;
+        settings.fusion.voxel_size = voxel;
+        settings.fusion.truncation = 4 * voxel;
+        state = start_slam(settings);
+        for (int i = 0; i < 4; ++i)
+            EXPECT_NE(next(test::room_frame(i, swaying(i), 1)).status, TrackingStatus::lost);
+        EXPECT_GT(state.volume.refused, 0U) << memory;
+        EXPECT_LE(state.volume.bricks.size() * sizeof(Brick), std::size_t(memory) << 20);
+    }
+}
+
+/// The camera goes along the left wall, 3 cm from it, towards the corner: the wall fills half of
+/// the image, at angles that no depth can be trusted at.
+TEST_F(SlamHardCases, ACornerSeenEdgeOn) {
+    Pose first;
+    for (int i = 0; i < 12; ++i) {
+        const Pose pose = test::posed({0, 0, 0}, {-1.17, 0.1, 0.01 * i});
+        const TrackResult result = next(test::room_frame(i, pose, 1));
+        EXPECT_NE(result.status, TrackingStatus::lost) << i;
+        const Pose moved = inverse(test::posed({0, 0, 0}, {-1.17, 0.1, 0})) * pose;
+        if (i == 0) first = result.world_from_camera;
+        const Pose found = inverse(first) * result.world_from_camera;
+        EXPECT_LT(glm::length(found.translation - moved.translation), 0.02) << i;
+    }
+}
+
+TEST_F(SlamHardCases, DepthOfAnotherScaleIsSaidAndNotTracked) {
+    const auto scaled = [](int i, float factor) {
+        RgbdFrame frame = test::room_frame(i, swaying(i), 1);
+        for (float& z : frame.depth.pixels)
+            z *= factor;
+        return frame;
+    };
     for (int i = 0; i < 4; ++i)
-        EXPECT_NE(next(test::room_frame(i, swaying(i), 1)).status, TrackingStatus::lost);
-    EXPECT_GT(state.volume.refused, 0U);
-    EXPECT_LE(state.volume.bricks.size() * sizeof(Brick), std::size_t(8) << 20);
+        next(scaled(i, 1));
+    const std::size_t bricks = state.volume.bricks.size();
+    const TrackResult result = next(scaled(4, 0.2f));
+    EXPECT_EQ(result.status, TrackingStatus::lost);
+    EXPECT_NE(result.why.find("scale"), std::string::npos) << result.why;
+    EXPECT_EQ(state.volume.bricks.size(), bricks);
+    EXPECT_NE(next(scaled(5, 1)).status, TrackingStatus::lost);
+
+    const auto recording = [&](float factor) {
+        return test::frames_from(6, [=](int i) { return scaled(i, factor); });
+    };
+    EXPECT_NO_THROW(check_depth_scale(recording(1)));
+    for (const float factor : {0.2f, 5.0f}) {  // 1000 units per m taken for 5000, and back
+        try {
+            reconstruct_recording(recording(factor), settings, PoseSource::tracked,
+                                  [](int) { return true; });
+            ADD_FAILURE() << factor;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ExitCode::bad_data);
+            EXPECT_NE(std::string(error.what()).find("--depth-scale"), std::string::npos);
+        }
+    }
+}
+
+/// Two thirds of the view are covered by a board, so that little of it fits the model.
+RgbdFrame behind_a_board(int i, const Pose& pose) {
+    RgbdFrame frame = test::room_frame(i, pose, 1);
+    for (int y = 0; y < frame.depth.height; ++y)
+        for (int x = 0; x < 2 * frame.depth.width / 3; ++x)
+            frame.depth(x, y) = 0.6f;
+    return frame;
+}
+
+double weight_of(const VoxelVolume& volume) {
+    double sum = 0;
+    for (const Brick& brick : volume.bricks)
+        sum += std::accumulate(brick.weight.begin(), brick.weight.end(), 0.0);
+    return sum;
+}
+
+TEST_F(SlamHardCases, AWeakFrameChangesTheModelOnlyWhereItWasExpected) {
+    for (int i = 0; i < 5; ++i)
+        next(test::room_frame(i, Pose{}, 1));
+    const double before = weight_of(state.volume);
+    const Pose jumped = test::posed({0, 0.06, 0}, {0.05, 0, 0});  // the camera had stood still
+    const TrackResult result = next(behind_a_board(5, jumped));
+    ASSERT_EQ(result.status, TrackingStatus::weak) << result.inlier_share;
+    EXPECT_FALSE(state.fused);
+    EXPECT_EQ(weight_of(state.volume), before);
+    EXPECT_LT(off(result, jumped), 0.02);
+    EXPECT_EQ(next(behind_a_board(6, jumped)).status, TrackingStatus::weak);
+    EXPECT_TRUE(state.fused);  // it stayed where it was
+    EXPECT_GT(weight_of(state.volume), before);
 }
 
 /// Someone goes past 0.8 m in front of the camera, over a third of the image.

@@ -52,16 +52,30 @@ inline double hit_room(const glm::dvec3& eye, const glm::dvec3& ray,
     return nearest;
 }
 
+/// Squares of paint, 8 cm wide and no two rows alike: the brightness at a point of the walls.
+inline std::uint8_t paint(const glm::dvec3& p) {
+    const auto cell = [](double along) {
+        return std::uint32_t(std::int32_t(std::floor(along / 0.08)));
+    };
+    const SampleKey key{cell(p.x) * 73u + cell(p.y), cell(p.z), 5, 3};
+    return std::uint8_t(30 + 200 * uniform(key, 0));
+}
+
 /// A frame from there; `noise` is a factor on the depth noise of a structured-light camera, `bend`
 /// the share by which depth is wrong at the image's left and right edges.
-inline RgbdFrame wall_frame(int index, const Pose& world_from_camera, float noise, double bend) {
+inline RgbdFrame wall_frame(int index, const Pose& world_from_camera, float noise, double bend,
+                            const Lens& lens = small_lens(), bool painted = false) {
     static const std::vector<Ball> on_walls = knobs();
-    const Lens lens = small_lens();
     RgbdFrame frame{index, index / 30.0, lens, {}, Image<float>(lens.width, lens.height), {}};
+    if (painted) frame.color = Image<EncodedRgb>(lens.width, lens.height);
     parallel_rows(lens.height, [&](int y) {
         for (int x = 0; x < lens.width; ++x) {
             const glm::dvec3 ray = world_from_camera.rotation * unproject(lens, {x, y});
             const double z = hit_room(world_from_camera.translation, ray, on_walls);
+            if (painted) {
+                const std::uint8_t grey = paint(world_from_camera.translation + 1.001 * z * ray);
+                frame.color(x, y) = {grey, grey, grey};
+            }
             const double side = 2.0 * x / lens.width - 1;
             const SampleKey key{7, std::uint32_t(index), std::uint32_t(y * lens.width + x), 0};
             double sum = -2;  // four uniform numbers: variance 1/3, near enough to a Gaussian
