@@ -22,6 +22,7 @@ constexpr float cost_of_way = 0.1f;   // of samples at the window's border, in s
 /// What a pixel of the band turned out to see.
 struct Verdict {
     bool known = false, two_sides = false;
+    OwnSide own = OwnSide::unknown;
     float near_share = 1;           // 0..1 of the pixel
     std::size_t near = 0, far = 0;  // pixels whose planes it sees
 };
@@ -68,17 +69,18 @@ Mixture best_mixture(const Image<EncodedRgb>& photo, std::size_t pixel, const Tw
     return best;
 }
 
-Verdict judge(const SurfaceMap& map, const Image<EncodedRgb>& photo, int band,
-              const TwoSides& sides, std::size_t pixel, float least_contrast) {
+Verdict judge(const Image<EncodedRgb>& photo, int band, const TwoSides& sides, std::size_t pixel,
+              float least_contrast) {
     Verdict verdict;
     verdict.known = sides.near.count > 0;
     verdict.two_sides = verdict.known && sides.far.count > 0;
+    verdict.own = sides.own;
     if (verdict.known) verdict.near = sides.near.pixel[0];
     if (!verdict.two_sides) return verdict;
     verdict.far = sides.far.pixel[0];
-    const bool measured = map.position.pixels[pixel].z > 0;
+    const bool measured = sides.own != OwnSide::unknown;
     const bool was_near =
-        measured ? sides.in_near : sides.near.distance2[0] < sides.far.distance2[0];
+        measured ? sides.own == OwnSide::near : sides.near.distance2[0] < sides.far.distance2[0];
     const Mixture mixture = best_mixture(photo, pixel, sides);
     float trust = std::clamp(mixture.contrast / least_contrast - 1, 0.0f, 1.0f);
     if (measured) {  // depth is wrong by a few pixels at most
@@ -99,14 +101,10 @@ public:
     void move(SurfaceMap& map, int x, int y) const {
         const Verdict& verdict = verdicts_(x, y);
         const std::size_t here = band_.index(x, y);
-        const bool near = verdict.near_share >= 0.5f;
-        std::size_t own = near ? verdict.near : verdict.far;
-        const float z = before_.position.pixels[here].z, other = before_.position.pixels[own].z;
-        if (z > 0 && std::abs(z - other) < steepest * other) own = here;  // it is on that already
-        map.position.pixels[here] =
-            own == here ? before_.position.pixels[here] : on_plane_of(own, x, y);
-        map.normal.pixels[here] = before_.normal.pixels[own];
-        map.confidence.pixels[here] = before_.confidence.pixels[own];
+        const std::size_t from = source(verdict, verdict.near_share >= 0.5f, here);
+        map.position.pixels[here] = point_on(from, x, y);
+        map.normal.pixels[here] = before_.normal.pixels[from];
+        map.confidence.pixels[here] = before_.confidence.pixels[from];
     }
 
     /// What else a pixel sees, if an edge crosses it.
@@ -118,21 +116,28 @@ public:
         const glm::vec2 slope = slope_of_share(x, y);
         if (share < least_share || !(glm::dot(slope, slope) > 0)) return std::nullopt;
         const glm::vec2 to_near = glm::normalize(slope);
-        const std::size_t other = near ? verdict.far : verdict.near;
+        const std::size_t other = source(verdict, !near, band_.index(x, y));
         const float across = std::abs(to_near.x) + std::abs(to_near.y);  // px, of the pixel
-        return SecondSurface{on_plane_of(other, x, y), before_.normal.pixels[other],
+        return SecondSurface{point_on(other, x, y), before_.normal.pixels[other],
                              near ? -to_near : to_near, (0.5f - share) * across};
     }
 
 private:
-    /// The point of a pixel's ray on another pixel's plane, as far as that is flat enough.
-    glm::vec3 on_plane_of(std::size_t other, int x, int y) const {
+    /// The pixel that has the surface of a side: the pixel `here` itself if it is on that side.
+    static std::size_t source(const Verdict& verdict, bool near, std::size_t here) {
+        if (verdict.own == (near ? OwnSide::near : OwnSide::far)) return here;
+        return near ? verdict.near : verdict.far;
+    }
+
+    /// The point of a pixel's ray on the plane of `other`, as far as that is flat enough; its own
+    /// point, if it is that pixel.
+    glm::vec3 point_on(std::size_t other, int x, int y) const {
         const glm::vec3 &p = before_.position.pixels[other], &n = before_.normal.pixels[other];
-        if (!(p.z > 0)) return glm::vec3(0);
+        if (other == band_.index(x, y) || !(p.z > 0)) return p;
         const glm::vec3 ray = (*view_.rays)(x, y);
         const float z = glm::dot(n, p) / glm::dot(n, ray);
-        const bool near = z > (1 - steepest) * p.z && z < (1 + steepest) * p.z;
-        return (near ? z : p.z) * ray;
+        const bool flat = z > (1 - steepest) * p.z && z < (1 + steepest) * p.z;
+        return (flat ? z : p.z) * ray;
     }
 
     /// How much of a neighbour the near surface of `center` fills.
@@ -185,8 +190,8 @@ void follow_photograph(SurfaceMap& map, const Image<EncodedRgb>& photo,
     parallel_rows(band.height, [&](int y) {
         for (int x = 0; x < band.width; ++x) {
             if (band(x, y) == 0) continue;
-            verdicts(x, y) = judge(map, photo, band(x, y), finder.around(x, y), band.index(x, y),
-                                   settings.contrast);
+            verdicts(x, y) =
+                judge(photo, band(x, y), finder.around(x, y), band.index(x, y), settings.contrast);
         }
     });
     const Mover mover(map, band, verdicts);

@@ -20,7 +20,9 @@ void validate(const EdgeSettings& settings);
 /// photograph shows there: the share of the nearer one is where its color lies between the colors
 /// of both sides (pairs of samples by their fit, as Wang and Cohen 2007, "Robust Matting", eq. 1
 /// to 3). The pixel takes the plane of the one that fills more of it, and knows the other where the
-/// edge crosses it (`map.split`). Pixels in holes that are narrower than the reach are filled.
+/// edge crosses it (`map.split`). Pixels in holes that are narrower than the reach are filled. What
+/// is so thin that no pixel of it is beyond the reach of its edges keeps its depth, and so do steps
+/// of less than some 4 % of depth.
 /// `photo` is the map's photograph, as recorded. Same bytes for any number of threads.
 void follow_photograph(SurfaceMap& map, const Image<EncodedRgb>& photo,
                        const EdgeSettings& settings);

@@ -9,13 +9,7 @@
 
 namespace inlay {
 
-/// A pixel near another.
-struct NearbyPixel {
-    glm::ivec2 step{0};  // px, to it
-    int distance2 = 0;   // px^2
-};
-
-/// Pixels of one side, nearest first.
+/// Trusted pixels of one surface, nearest first.
 struct EdgeSide {
     static constexpr int most = 6;
     std::array<std::size_t, most> pixel{};
@@ -23,32 +17,51 @@ struct EdgeSide {
     int count = 0;
 };
 
+/// The side on which a pixel's own depth lies.
+enum class OwnSide { unknown, near, far };
+
 struct TwoSides {
-    EdgeSide near, far;   // pixels that can be trusted; of the nearer surface, of what lies behind
-    bool in_near = true;  // whether the pixel's own depth, if any, belongs to the nearer surface
-    float from_edge = 0;  // px to where depth changes sides; at most `band` + 1
+    EdgeSide near, far;  // of the nearer surface, and of what lies behind: maybe nothing known
+    OwnSide own = OwnSide::unknown;
+    float from_edge = 0;  // px to the nearest pixel of another depth; at most its band + 1
 };
 
-/// Looks for two surfaces around pixels of a surface map. Depth is compared in classes of 2.5 %;
-/// pixels without any count as what lies behind.
+/// Looks for two surfaces around pixels of a surface map. Surfaces are runs of depth, in classes of
+/// 1.25 %, with at least two empty classes between them; pixels without depth are one, behind all.
 class SideFinder {
 public:
     /// `band`: as edge_band(); pixels outside it are trusted. Both must outlive the finder.
     SideFinder(const SurfaceMap& map, const Image<std::uint8_t>& band);
 
-    /// The sides around a pixel of the band; the far one is empty where there is no gap in depth.
+    /// The sides around a pixel of the band: of a pixel with depth, the surface it lies on and the
+    /// nearest other one; of a hole, the two nearest. The far one is empty where there is no other;
+    /// both are where a pixel has a depth that no trusted one has: a thing too thin to tell.
     TwoSides around(int x, int y) const;
     /// How far (px) samples are looked for.
     static constexpr int window = 10;
 
 private:
-    int find_parting(int x, int y) const;
-    float from_edge(int x, int y, int parting) const;
+    /// A pixel near another.
+    struct Step {
+        glm::ivec2 by{0};   // px
+        int distance2 = 0;  // px^2
+    };
+    /// Classes of depth of one surface.
+    struct Run {
+        std::uint8_t first = 1, last = 0;  // empty
+        bool holds(int depth_class) const { return depth_class >= first && depth_class <= last; }
+    };
+    static constexpr std::size_t most_runs = 4;
+    using Runs = std::array<Run, most_runs>;  // nearest first
+
+    static std::vector<Step> steps_within(int reach, int stride);
+    Runs runs_around(int x, int y) const;
+    float from_edge(int x, int y, const Run& own) const;
 
     const Image<std::uint8_t>& band_;
     Image<std::uint8_t> depth_class_;
-    Image<std::uint8_t> parting_;              // of tiles: the class at which the far side begins
-    std::vector<NearbyPixel> sparse_, dense_;  // nearest first; every second pixel, and every one
+    Image<Runs> runs_;                  // of tiles
+    std::vector<Step> sparse_, dense_;  // nearest first; every second pixel, and every one
 };
 
 }  // namespace inlay

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -58,13 +59,14 @@ SurfaceMap seen(const std::function<float(int x, int y)>& depth_at) {
     return map;
 }
 
-SurfaceMap disk_of_radius(float r) {
-    return seen([r](int x, int y) { return from_middle(float(x), float(y)) < r ? near_z : far_z; });
+SurfaceMap disk_of_radius(float r, float wall_z = far_z) {
+    return seen(
+        [=](int x, int y) { return from_middle(float(x), float(y)) < r ? near_z : wall_z; });
 }
 
 /// The share of a pixel that the map gives to the disk.
 float share_in(const SurfaceMap& map, int x, int y) {
-    const auto is_near = [](const glm::vec3& p) { return p.z > 0 && p.z < 1.5f; };
+    const auto is_near = [](const glm::vec3& p) { return p.z > 0 && p.z < 1.02f; };
     const bool own = is_near(map.position(x, y));
     const std::uint32_t number = map.split.number.empty() ? 0 : map.split.number(x, y);
     if (number == 0) return own ? 1.0f : 0.0f;
@@ -108,6 +110,50 @@ TEST(FollowPhotograph, EdgesThatAreOffByTwoPixelsMoveToTheColorEdge) {
             << off;                               // of color noise, and of the wrong half-plane
         EXPECT_GT(map.split.second.size(), 60U);  // of about 126 px of edge
     }
+}
+
+TEST(FollowPhotograph, StepsOfAFewHundredthsMoveToo) {
+    for (const float wall_z : {1.05f, 1.06f, 1.08f, 1.2f}) {
+        SurfaceMap map = disk_of_radius(radius - 2, wall_z);
+        follow_photograph(map, photograph(disk_color, wall_color), reaching(4));
+        EXPECT_LT(boundary_error(map), 0.15f) << wall_z;
+    }
+}
+
+/// Bars and slits of a few pixels, all of them nearer to an edge than depth is trusted.
+TEST(FollowPhotograph, ThinThingsKeepTheirDepth) {
+    const Image<EncodedRgb> photo = photograph(disk_color, wall_color);
+    for (int width = 1; width <= 8; ++width) {
+        for (const bool bar : {true, false}) {
+            const SurfaceMap before = seen(
+                [=](int x, int) { return (x >= 50 && x < 50 + width) == bar ? near_z : far_z; });
+            SurfaceMap map = before;
+            follow_photograph(map, photo, reaching(4));
+            EXPECT_EQ(map.position.pixels, before.position.pixels) << width << bar;
+        }
+    }
+}
+
+/// A square before a book before a wall: no pixel takes the depth of what its color is not.
+TEST(FollowPhotograph, ThreeSurfacesThatMeetStayApart) {
+    const std::array<float, 3> depths{1.0f, 1.3f, 2.5f};
+    const std::array<Rgb, 3> colors{disk_color, {0.1f, 0.4f, 0.15f}, wall_color};
+    const auto surface_at = [](int x, int y) {
+        return y < 40   ? 2
+               : x < 60 ? 0
+               : x < 75 ? 1
+                        : 2;  // the book's width is one and a half bands
+    };
+    Image<EncodedRgb> photo(lens.width, lens.height);
+    for (int y = 0; y < lens.height; ++y)
+        for (int x = 0; x < lens.width; ++x)
+            photo(x, y) = encode(colors[std::size_t(surface_at(x, y))]);
+    SurfaceMap map = seen([&](int x, int y) { return depths[std::size_t(surface_at(x, y))]; });
+    follow_photograph(map, photo, reaching(4));
+    for (int y = 0; y < lens.height; ++y)
+        for (int x = 0; x < lens.width; ++x)
+            EXPECT_NEAR(map.position(x, y).z, depths[std::size_t(surface_at(x, y))], 1e-4f)
+                << x << ' ' << y;
 }
 
 TEST(FollowPhotograph, HolesAlongTheEdgeAreFilledOnBothSides) {
@@ -155,7 +201,14 @@ TEST(FollowPhotograph, BytesDoNotDependOnThreads) {
     follow_photograph(three, photo, reaching(4));
     set_thread_count(0);
     EXPECT_EQ(one.position.pixels, three.position.pixels);
+    EXPECT_EQ(one.normal.pixels, three.normal.pixels);
+    EXPECT_EQ(one.confidence.pixels, three.confidence.pixels);
     EXPECT_EQ(one.split.number.pixels, three.split.number.pixels);
+    ASSERT_EQ(one.split.second.size(), three.split.second.size());
+    for (std::size_t i = 0; i < one.split.second.size(); ++i) {
+        EXPECT_EQ(one.split.second[i].position, three.split.second[i].position);
+        EXPECT_EQ(one.split.second[i].edge, three.split.second[i].edge);
+    }
 }
 
 TEST(FollowPhotograph, HardMapsStayFinite) {
