@@ -103,6 +103,7 @@ FrameReport write_frame(ReplayOutput& output, const RgbdFrame& frame, const Outp
     exr.layers = named.layers;
     exr.frame = frame.index;
     exr.world_from_camera = composed.tracking.world_from_camera;
+    exr.exposure = composed.exposure;
     write_exr(exr_file(output.folder, frame.index), exr);
     write_png(picture_file(output.folder, frame.index), composed.composite.display);
     FrameReport report = report_of(frame.index, frame.time, composed);

@@ -55,10 +55,13 @@ SlamStep without_pose(const SlamState& slam) {
     return step;
 }
 
-/// What the model leaves open: edges and the normals of surfaces that were hardly seen.
-void finish(SurfaceMap& surface, const RgbdFrame& frame, const SlamSettings& settings) {
+/// With what the model leaves open: edges, and the normals of surfaces that were hardly seen.
+SurfaceMap finished(SurfaceMap surface, const RgbdFrame& frame, const SlamStep& step,
+                    const SlamSettings& settings) {
+    if (step.tracking.status == TrackingStatus::lost) return surface;
     follow_photograph(surface, frame.color, settings.edges);
     surface.normal = smooth_normals(surface);
+    return surface;
 }
 
 }  // namespace
@@ -70,29 +73,40 @@ SlamStep track_frame_of(SlamState& slam, const RgbdFrame& frame, const Settings&
         known = frame.recorded_world_from_camera;
     }
     SlamStep step = advance_slam(slam, frame, settings.slam, known);
-    finish(step.surface, frame, settings.slam);
+    step.surface = finished(std::move(step.surface), frame, step, settings.slam);
     return step;
+}
+
+SlamStep known_view_of(const Reconstruction& known, const RgbdFrame& frame) {
+    const int position = position_of(known, frame.index);
+    SlamStep view;
+    view.surface.lens = frame.lens;
+    if (position < 0) return view;
+    view.tracking = known.frames[std::size_t(position)].tracking;
+    view.gain = known.frames[std::size_t(position)].gain;
+    const ColorCamera camera = color_camera_of(known, position, frame.lens);
+    Pose& pose = view.tracking.world_from_camera;
+    if (color_is_apart(known)) pose = pose * inverse(camera.color_from_depth);
+    view.surface.lens = camera.lens;
+    view.surface.world_from_camera = pose;
+    return view;
+}
+
+SurfaceMap known_surface_of(const Reconstruction& known, const RgbdFrame& frame,
+                            const SlamStep& view, const Settings& settings) {
+    if (!color_is_apart(known))
+        return finished(see_model(known.volume, frame, view.tracking, settings.slam), frame, view,
+                        settings.slam);
+    SurfaceMap surface = raycast_volume(known.volume, view.surface.lens,
+                                        view.tracking.world_from_camera, settings.slam.raycast);
+    if (view.tracking.status == TrackingStatus::lost) forget(surface);
+    return finished(std::move(surface), frame, view, settings.slam);
 }
 
 SlamStep known_frame_of(const Reconstruction& known, const RgbdFrame& frame,
                         const Settings& settings) {
-    const int position = position_of(known, frame.index);
-    SlamStep step;
-    if (position >= 0) {
-        step.tracking = known.frames[std::size_t(position)].tracking;
-        step.gain = known.frames[std::size_t(position)].gain;
-    }
-    const auto& registration = known.registration;
-    if (position >= 0 && registration && (registration->needed || registration->delay_needed)) {
-        const ColorCamera camera = color_camera_of(known, position, frame.lens);
-        Pose& pose = step.tracking.world_from_camera;
-        pose = pose * inverse(camera.color_from_depth);
-        step.surface = raycast_volume(known.volume, camera.lens, pose, settings.slam.raycast);
-        if (step.tracking.status == TrackingStatus::lost) forget(step.surface);
-    } else {
-        step.surface = see_model(known.volume, frame, step.tracking, settings.slam);
-    }
-    finish(step.surface, frame, settings.slam);
+    SlamStep step = known_view_of(known, frame);
+    step.surface = known_surface_of(known, frame, step, settings);
     return step;
 }
 

@@ -16,7 +16,15 @@ namespace inlay {
 /// it is.
 SlamStep track_frame_of(SlamState& slam, const RgbdFrame& frame, const Settings& settings);
 
-/// What the finished model of a recording shows in a frame, to the camera that took its photograph.
+/// Where the camera that took a frame's photograph was, and its exposure; of the surface, nothing
+/// but lens and pose yet. Its depth is read by nobody.
+SlamStep known_view_of(const Reconstruction& known, const RgbdFrame& frame);
+
+/// What the finished model shows to the camera of known_view_of().
+SurfaceMap known_surface_of(const Reconstruction& known, const RgbdFrame& frame,
+                            const SlamStep& view, const Settings& settings);
+
+/// Both.
 SlamStep known_frame_of(const Reconstruction& known, const RgbdFrame& frame,
                         const Settings& settings);
 

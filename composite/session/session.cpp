@@ -20,6 +20,12 @@ LightDemand demand_of(const Settings& settings, const NoisyLayers* previous) {
     };
 }
 
+/// The known model, where a frame calls for it.
+void see_known(Session& session, const RgbdFrame& frame, SlamStep& slam) {
+    slam.surface = known_surface_of(*session.known, frame, slam, session.settings);
+    update_model(session.model, session.known->volume, 0, session.settings.geometry);
+}
+
 }  // namespace
 
 const VoxelVolume& volume_of(const Session& session) {
@@ -59,11 +65,12 @@ OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work) {
     OutputFrame out;
     StopWatch watch;
 
-    SlamStep slam = session.known ? known_frame_of(*session.known, frame, settings)
+    SlamStep slam = session.known ? known_view_of(*session.known, frame)
                                   : track_frame_of(session.slam, frame, settings);
     out.tracking = slam.tracking;
     if (slam.surface.lens.width == 0) slam.surface.lens = frame.lens;  // lost before any surface
-    update_model(session.model, volume_of(session), model_age(session), settings.geometry);
+    if (!session.known)
+        update_model(session.model, session.slam.volume, session.frames_seen, settings.geometry);
     ++session.frames_seen;
     out.ms.slam = watch.lap();
     const std::shared_ptr<const NoisyLayers> previous = std::exchange(session.previous, nullptr);
@@ -81,6 +88,8 @@ OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work) {
     out.ms.plan = watch.lap();
 
     if (out.plan.has("environment_indirect")) {
+        if (session.known) see_known(session, frame, slam);
+        out.ms.slam += watch.lap();
         out.real = std::make_shared<const RealScene>(describe_real_scene(
             std::move(slam.surface), photo.linear, volume_of(session), session.model, settings));
         TwoModeResult sampled = sample(session, *out.real, frame, out.plan, settings.trace,

@@ -13,6 +13,7 @@
 #include <OpenEXR/ImfMatrixAttribute.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfVecAttribute.h>
 
 #include <algorithm>
 #include <array>
@@ -171,6 +172,10 @@ Imf::Header header_of(const ExrFile& contents, Size size) {
     header.lineOrder() = Imf::INCREASING_Y;
     Imf::addChromaticities(header, Imf::Chromaticities());  // defaults: Rec. 709, D65
     if (contents.frame) header.insert("inlay/frame", Imf::IntAttribute(*contents.frame));
+    const Rgb& exposure = contents.exposure;
+    if (exposure != Rgb(1))
+        header.insert("inlay/exposure",
+                      Imf::V3fAttribute(Imath::V3f(exposure.r, exposure.g, exposure.b)));
     if (contents.world_from_camera)
         header.insert("inlay/worldFromCamera",
                       Imf::M44fAttribute(row_major(*contents.world_from_camera)));

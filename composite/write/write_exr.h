@@ -41,6 +41,7 @@ struct ExrFile {
     std::vector<ExrLayer> layers{};
     std::optional<int> frame{};               // attribute inlay/frame
     std::optional<Pose> world_from_camera{};  // attribute inlay/worldFromCamera, column vectors, m
+    Rgb exposure{1};  // attribute inlay/exposure, unless 1: the photograph is so much brighter
 };
 
 /// The file in memory: one part, scan lines, ZIP, Rec. 709 chromaticities, no dates, so that equal

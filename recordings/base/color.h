@@ -25,6 +25,9 @@ Rgb decode(EncodedRgb encoded);
 /// encode(decode(x)) == x for every byte.
 EncodedRgb encode(const Rgb& linear);
 
+/// Byte from which on a channel of a photograph may have been brighter than it says.
+constexpr int clipped_byte = 250;
+
 Image<Rgb> decode(const Image<EncodedRgb>& encoded);
 Image<EncodedRgb> encode(const Image<Rgb>& linear);
 

@@ -20,7 +20,7 @@ struct RealPrimaryHit {
 
 /// The same of sixteen rays. Where a pixel sees two surfaces (SplitPixels), `pixel` has the one
 /// that fills more of it, on which its light is gathered, and `ray` the one that the ray itself
-/// meets, which decides what hides virtual surfaces that stand between the two.
+/// meets, which counts where a virtual surface stands between the two.
 struct RealPrimaryHits {
     std::array<RealPrimaryHit, packet_width> pixel, ray;
     std::uint32_t split = 0;  // bit mask of lanes where `ray` has something to say

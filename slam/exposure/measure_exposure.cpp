@@ -19,7 +19,6 @@ constexpr int least_samples = 100;      // of a channel, that agree
 constexpr float least_cosine = 0.3f;    // of the angle of sight; gloss grows beyond
 constexpr float reach = 3.0f / 640;     // of the photograph's width, from a patch's centre
 constexpr float most_contrast = 0.25f;  // in a patch; more is an edge
-constexpr int clipped = 250;            // byte from which on a pixel may have been brighter
 constexpr float darkest = 0.02f;        // linear; below, black level and noise rule
 constexpr float brightest = 0.9f;       // linear, of the model: byte 244
 constexpr float least_weight = 1e-6f;   // of a saturated color; a grey one's is its square
@@ -57,7 +56,7 @@ std::optional<Rgb> patch_mean(const Image<EncodedRgb>& photo, int x, int y) {
     for (const glm::ivec2 step : {glm::ivec2(0, 0), glm::ivec2(r, 0), glm::ivec2(-r, 0),
                                   glm::ivec2(0, r), glm::ivec2(0, -r)}) {
         const EncodedRgb pixel = photo(x + step.x, y + step.y);
-        if (std::max({pixel.r, pixel.g, pixel.b}) >= clipped) return std::nullopt;
+        if (std::max({pixel.r, pixel.g, pixel.b}) >= clipped_byte) return std::nullopt;
         const Rgb color = decode(pixel);
         sum += color;
         low = glm::min(low, color);

@@ -6,7 +6,6 @@
 namespace inlay {
 namespace {
 
-constexpr int most_different = 64;       // of 256 bits; unrelated descriptors differ in some 128
 constexpr double most_ambiguous = 0.93;  // nearest over second nearest difference
 
 /// The nearest of all, and how near the second nearest is.
@@ -24,7 +23,7 @@ struct Nearest {
         }
     }
     bool distinct() const {
-        return difference <= most_different && difference < most_ambiguous * second;
+        return difference <= most_different_bits && difference < most_ambiguous * second;
     }
 };
 

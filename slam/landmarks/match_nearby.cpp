@@ -9,7 +9,6 @@ namespace {
 constexpr float reach = 0.025f;       // rad
 constexpr float depth_reach = 0.08f;  // of depth
 constexpr float nearest = 0.05f;      // m, from the camera
-constexpr int most_different = 64;    // bits
 
 /// Where a landmark is seen.
 struct Sight {
@@ -36,7 +35,7 @@ bool near(const Sight& a, const Sight& b) {
 
 struct MostAlike {
     int index = -1;
-    int difference = most_different + 1;  // bits
+    int difference = most_different_bits + 1;  // bits
 
     void offer(int candidate, int bits) {
         if (bits < difference) *this = {candidate, bits};

@@ -7,6 +7,7 @@
 #include "slam/mapping/see_model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace inlay {
@@ -41,10 +42,10 @@ TrackResult track(const SlamState& state, const RgbdFrame& frame, const Observed
     if (result.status == TrackingStatus::weak) return result;
     result.status = TrackingStatus::lost;
     result.world_from_camera = state.model->world_from_camera;
-    if (const auto scale = other_scale(observed.pyramid.front(), *state.model))
-        result.why = "its depth is " + std::to_string(*scale) +
-                     " times what the model has: it may be of another scale";
     if (result.why.empty()) result.why = "none of the earlier views explains it";
+    if (const auto scale = other_scale(observed.pyramid.front(), *state.model))
+        result.why += "; its depth is about " + std::to_string(std::lround(100 * *scale)) +
+                      " % of what the model has there, and may be of another scale";
     return result;
 }
 

@@ -37,9 +37,7 @@ std::vector<TimedCamera> path_between(const Reconstruction& reconstruction, int 
 }  // namespace
 
 ColorCamera color_camera_of(const Reconstruction& reconstruction, int position, const Lens& lens) {
-    const bool apart = reconstruction.registration && (reconstruction.registration->needed ||
-                                                       reconstruction.registration->delay_needed);
-    if (!apart) return {lens, Pose{}};
+    if (!color_is_apart(reconstruction)) return {lens, Pose{}};
     const ColorRegistration& found = *reconstruction.registration;
     ColorCamera camera{found.needed ? found.color_lens : lens, Pose{}};
     ColorMapping mapping;

@@ -10,6 +10,12 @@ struct ColorCamera {
     Pose color_from_depth;  // with the camera's motion between the two images
 };
 
+/// Whether the color camera is not the depth camera.
+inline bool color_is_apart(const Reconstruction& reconstruction) {
+    const auto& found = reconstruction.registration;
+    return found && (found->needed || found->delay_needed);
+}
+
 /// Of the frame at a position in `reconstruction.frames`: the depth camera itself, with `lens`,
 /// where registration is not needed.
 ColorCamera color_camera_of(const Reconstruction& reconstruction, int position, const Lens& lens);

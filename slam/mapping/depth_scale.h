@@ -8,9 +8,10 @@
 
 namespace inlay {
 
-/// Depth cameras of rooms measure from 0.4 m on, and mostly nearer than 4 m. Throws Error (bad
-/// data) that says so if the median of what some frames of the recording measured lies beyond: then
-/// most likely its scale is wrong. Frames that cannot be read do not count.
+/// Depth cameras of rooms measure from some 0.3 m on, and mostly nearer than 4 m. Throws Error (bad
+/// data) that says so if what some frames of the recording measured is nearer or farther than that:
+/// then most likely its scale is wrong. It is a guess: a wrong scale may look like another room.
+/// Frames that cannot be read do not count.
 void check_depth_scale(const FrameSource& source);
 
 /// How many times farther away a frame's surfaces are than those of the model at the same pixels,

@@ -28,7 +28,8 @@ LoopView make_loop_view(const SurfaceMap& seen, const Pose& world_from_camera,
 std::vector<PoseEdge> chain_edges(std::span<const LoopView> views, const TrackSettings& settings);
 
 /// Motions between views that are not neighbours but show the same surfaces from where they stand,
-/// or the same landmarks from wherever: found by ICP of the one with the other.
+/// or, where none of these was found for a view, the same landmarks from wherever: found by ICP of
+/// the one with the other.
 std::vector<PoseEdge> find_loops(std::span<const LoopView> views, const TrackSettings& settings);
 
 /// How far (m, rad) the poses' motion is from an edge's.

@@ -52,8 +52,9 @@ bool shows_more(const std::vector<LoopView>& views, const Pose& world_from_camer
            rotation_angle(last, world_from_camera) > keyframe_angle;
 }
 
-/// The last good frame as a view for loops.
-LoopView view_of(const SlamState& state, const Pose& world_from_camera) {
+/// The last fused frame as a view for loops, which only tracked poses need.
+LoopView view_of(const SlamState& state, const Pose& world_from_camera, PoseSource poses) {
+    if (poses == PoseSource::recorded) return {{}, world_from_camera};
     Image<float> depth(state.seen->lens.width, state.seen->lens.height);
     for (std::size_t i = 0; i < depth.pixels.size(); ++i)
         depth.pixels[i] = state.seen->position.pixels[i].z;
@@ -75,6 +76,7 @@ ReconstructedFrame first_look(SlamState& state, const FrameSource& source, int p
         result.tracking.why = error.what();
         if (state.model) result.tracking.world_from_camera = state.model->world_from_camera;
     }
+    result.gain = state.exposure.gain;
     if (!is_lost(result) && state.fused) result.fused_at = result.tracking.world_from_camera;
     return result;
 }
@@ -90,7 +92,7 @@ FirstPass first_pass(const FrameSource& source, const SlamSettings& settings, Po
         if (pass.result.frames.back().fused_at &&
             shows_more(pass.views, tracking.world_from_camera)) {
             pass.result.keyframes.push_back(i);
-            pass.views.push_back(view_of(state, tracking.world_from_camera));
+            pass.views.push_back(view_of(state, tracking.world_from_camera, poses));
         }
         pass.result.complete = go_on(i + 1);
     }
@@ -276,6 +278,7 @@ Reconstruction reconstruct_recording(const FrameSource& source, const SlamSettin
     if (settings.register_color) result.registration = register_recording(result, source, settings);
     result.complete = fuse_recording(result, source, settings, go_on);
     if (!result.complete) return std::move(result);
+    if (poses == PoseSource::recorded && !settings.follow_exposure) return std::move(result);
     SlamSettings last = settings;
     last.track.noisy_angle = settings.track.coarse_angle;  // the model has its noise behind it
     result.complete = last_pass(result, source, last, poses, go_on);

@@ -22,6 +22,7 @@ SlamSettings first_pass_of(const SlamSettings& settings) {
     SlamSettings first = settings;
     first.look_ahead = false;
     first.half_resolution = true;
+    first.follow_exposure = false;  // its colors are thrown away
     const float larger = std::min(1.5f, 1 / settings.fusion.voxel_size);  // 1 m at most
     first.fusion.voxel_size *= larger;
     first.fusion.truncation *= larger;

@@ -15,7 +15,6 @@ namespace inlay {
 namespace {
 
 constexpr float most_color_weight = 64;  // observations; then the mean slides
-constexpr int clipped = 250;             // byte from which on a channel may have been brighter
 
 /// What one pixel says about the space around its surface. All zero: nothing.
 struct PixelPlane {
@@ -76,7 +75,7 @@ void fold_color(Brick& brick, std::size_t slot, const EncodedRgb& pixel, const R
     const std::array<int, 3> bytes{pixel.r, pixel.g, pixel.b};
     for (int i = 0; i < 3; ++i) {
         std::uint16_t& channel = brick.color[std::size_t(i)][slot];
-        const bool at_least = old > 0 && bytes[std::size_t(i)] >= clipped;
+        const bool at_least = old > 0 && bytes[std::size_t(i)] >= clipped_byte;
         const float value = at_least ? std::max(color[i], float(channel)) : color[i];
         const float mean = (old * float(channel) + value) / (old + 1);
         channel = std::uint16_t(std::clamp(mean, 0.0f, 65535.0f) + 0.5f);

@@ -100,6 +100,38 @@ TEST(ReconstructRecording, ALoopBeyondReachOfIcpClosesByLandmarks) {
     EXPECT_LT(after, before / 3);
 }
 
+/// From frame 20 on the camera lets in half as much light again: said of every frame, whether the
+/// model is finished or grows, and whether poses are tracked or recorded.
+TEST(ReconstructRecording, AChangeOfExposureIsFollowed) {
+    constexpr int shown = 40, change = 20;
+    const Lens lens = scaled(test::small_lens(), 320, 240);
+    const FrameSource source = test::frames_from(shown, [&](int i) {
+        const Pose pose = test::around_the_room(i / 300.0);
+        RgbdFrame frame = test::wall_frame(i, pose, 1, 0, lens, true);
+        frame.recorded_world_from_camera = pose;
+        for (EncodedRgb& pixel : frame.color.pixels)
+            pixel = encode((i < change ? 0.5f : 0.75f) * decode(pixel));
+        return frame;
+    });
+    SlamSettings grows = accurate_slam();
+    grows.look_ahead = false;
+    for (const auto& [settings, poses] : {std::pair{accurate_slam(), PoseSource::tracked},
+                                          {accurate_slam(), PoseSource::recorded},
+                                          {grows, PoseSource::tracked}}) {
+        const Reconstruction result = reconstruct_recording(source, settings, poses, to_the_end);
+        for (int i = 0; i < shown; ++i) {
+            const Rgb gain = result.frames[std::size_t(i)].gain;
+            for (int c = 0; c < 3; ++c) {
+                // Noise of bytes averages out; voxels mix what is painted beside each other.
+                if (i < change)
+                    EXPECT_EQ(gain[c], 1) << i;
+                else
+                    EXPECT_NEAR(gain[c], 1.5f, 0.03f) << i;
+            }
+        }
+    }
+}
+
 /// The camera comes back upside down to where it started, which no turned start is near to.
 TEST(FindWayBack, LandmarksFindACameraThatIsTurnedRound) {
     const Lens lens = scaled(test::small_lens(), 320, 240);

@@ -88,6 +88,28 @@ TEST(Composite, LeavesHolesOfTheRealGeometryAsRecorded) {
     EXPECT_EQ(result.influenced_pixels, 1u);
 }
 
+/// A camera that opens up by half between two frames: the same virtual object has the same radiance
+/// and is shown brighter by as much as the room around it.
+TEST(Composite, VirtualObjectsFollowTheExposureOfThePhotograph) {
+    const Rgb gain{1.5f, 1.4f, 1.6f};
+    Layers layers = untouched_layers(3, 1, 1.0f);
+    layers.m(1, 0) = 0;  // a virtual object that sends 0.2
+    layers.s_rv(1, 0) = Rgb(0.2f);
+    layers.direct.e_rv_real(2, 0) = Rgb(0.5f);  // a shadow
+    const Rgb room(0.3f);
+    const Photo before = linearise(encode(Image<Rgb>(3, 1, room)));
+    const Photo after = linearise(encode(Image<Rgb>(3, 1, room * gain)), gain);
+    const Composite a = composite(before, layers), b = composite(after, layers);
+    EXPECT_EQ(b.display(0, 0), after.encoded(0, 0));  // as recorded, whatever the exposure
+    EXPECT_EQ(b.display(1, 0), encode(Rgb(0.2f) * gain));
+    EXPECT_EQ(a.linear(1, 0), b.linear(1, 0));
+    for (int c = 0; c < 3; ++c)  // bytes of the two photographs differ by their rounding
+        EXPECT_NEAR(a.linear(2, 0)[c], b.linear(2, 0)[c], 0.002f);
+    const Photo judged = at_reference_exposure(after);
+    EXPECT_EQ(judged.encoded(0, 0), before.encoded(0, 0));
+    EXPECT_EQ(judged.exposure, Rgb(1));
+}
+
 TEST(Composite, ShadowsScaleTheLinearPhotograph) {
     const Photo photo = grey_photo(1, 1, 200);
     Layers layers = untouched_layers(1, 1, 2.0f);

@@ -61,7 +61,14 @@ TEST(FrameReport, ReadsBackToTheSameBits) {
     EXPECT_EQ(read.rays.real_indirect, 5'000'000'000u);
     EXPECT_EQ(read.dropped_samples, 11u);
     EXPECT_EQ(read.replaced_pixels, 12u);
+    EXPECT_EQ(read.exposure, glm::vec3(1));
     EXPECT_EQ(to_json_line(read), to_json_line(written));
+}
+
+TEST(FrameReport, AnExposureReadsBackToTheSameBits) {
+    FrameReport written = some_report(3);
+    written.exposure = {1.0f / 3, 1.7f, 1};
+    EXPECT_EQ(from_json_line(to_json_line(written), "line 1").exposure, written.exposure);
 }
 
 TEST(FrameReport, AGovernorsChoiceReadsBackWithWhatItLeavesOpen) {

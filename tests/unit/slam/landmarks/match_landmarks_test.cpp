@@ -1,6 +1,7 @@
 // Landmarks of a room that is known exactly, and the motions found from them.
 #include "slam/landmarks/match_landmarks.h"
 
+#include "recordings/base/parallel.h"
 #include "slam/landmarks/find_landmarks.h"
 #include "slam/landmarks/match_descriptors.h"
 #include "slam/landmarks/solve_motion.h"
@@ -221,9 +222,12 @@ TEST(MatchLandmarks, PointsOnALineOrAtOnePlaceTellNoMotion) {
     EXPECT_FALSE(match_landmarks(view, view).has_value());
 }
 
-TEST(MatchLandmarks, SameResultTwice) {
+TEST(MatchLandmarks, SameResultTwiceAndForAnyNumberOfThreads) {
+    set_thread_count(1);
     const Landmarks from = landmarks_from(Pose{}), to = landmarks_from(other_pose());
+    set_thread_count(3);
     expect_same(from, landmarks_from(Pose{}));
+    set_thread_count(0);
     const auto once = match_landmarks(from, to), again = match_landmarks(from, to);
     ASSERT_TRUE(once && again);
     EXPECT_EQ(once->from_to.rotation, again->from_to.rotation);

@@ -1,6 +1,7 @@
 // The volume: finding bricks, fusing depth, and seeing the fused surface again.
 #include "recordings/base/check.h"
 #include "slam/volume/fuse_depth.h"
+#include "slam/depth/surface_from_depth.h"
 #include "slam/volume/raycast_volume.h"
 #include "slam/volume/sample_volume.h"
 #include "tests/unit/slam/analytic_room.h"
@@ -164,6 +165,21 @@ TEST(VolumeColor, IsTheColorThatWasFused) {
     const Rgb expected = decode(EncodedRgb{200, 100, 50});
     EXPECT_LT(glm::length(*color - expected), 3.0f / 65535);  // stored in 16 bits
     EXPECT_FALSE(volume_color(volume, {0, 0, 0.2f}).has_value());
+}
+
+TEST(VolumeColor, IsKeptAtOneExposureAndOnlyRaisedByClippedPixels) {
+    RgbdFrame frame = test::room_frame(0, Pose{});
+    const SurfaceMap seen = surface_from_depth(frame.depth, frame.lens, Pose{});
+    const glm::vec3 p(double(frame.depth(40, 70)) * unproject(frame.lens, {40, 70}));
+    const Rgb dark = decode(EncodedRgb{200, 100, 50});
+    VoxelVolume volume = make_volume({});
+    for (const float gain : {1.0f, 2.0f, 4.0f}) {  // red clips at 2 and 4, green at 4
+        frame.color.pixels.assign(frame.color.pixels.size(), encode(gain * dark));
+        fuse_surface(volume, seen, {frame.color, frame.lens, Pose{}, Rgb(gain)}, {});
+    }
+    const Rgb color = *volume_color(volume, p);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(color[c], dark[c], 0.004f);  // bytes of brighter photographs, rounded
 }
 
 TEST(FusionSettings, RefuseWhatCannotWork) {
