@@ -8,7 +8,7 @@
 namespace inlay {
 namespace {
 
-constexpr int narrowest = 1, widest = 8;  // px
+constexpr float far_factor = 2.5f;  // times the reach
 
 bool off_plane(const SurfaceMap& map, std::size_t at, std::size_t other, float step) {
     const glm::vec3& p = map.position.pixels[at];
@@ -24,11 +24,12 @@ bool edge_between(const SurfaceMap& map, std::size_t a, std::size_t b, float ste
 }
 
 /// The band's half-width (px) at a pixel that lies at an edge: by the nearer one of two surfaces.
-int width_at(const SurfaceMap& map, std::size_t a, std::size_t b, float reach) {
+int width_at(const SurfaceMap& map, std::size_t a, std::size_t b, const BandWidth& width) {
     const float za = map.position.pixels[a].z, zb = map.position.pixels[b].z;
     const float z = za > 0 && zb > 0 ? std::min(za, zb) : std::max(za, zb);
-    const float pixels = reach * float(map.lens.fx) / z;
-    return std::clamp(int(std::ceil(pixels)), narrowest, widest);
+    const float pixels = width.reach * float(map.lens.fx) / z;
+    const int far = std::min(int(std::ceil(far_factor * pixels)), width.smear);
+    return std::clamp(std::max(int(std::ceil(pixels)), far), 1, widest_band);
 }
 
 /// What is left (px) of the band's half-width `full` at a pixel.
@@ -37,7 +38,7 @@ struct Width {
 };
 
 /// The half-widths at the pixels that lie at an edge.
-Image<Width> width_of_edges(const SurfaceMap& map, float reach, float step) {
+Image<Width> width_of_edges(const SurfaceMap& map, const BandWidth& band, float step) {
     const Lens& lens = map.lens;
     Image<Width> widths(lens.width, lens.height);
     parallel_rows(lens.height, [&](int y) {
@@ -49,7 +50,7 @@ Image<Width> width_of_edges(const SurfaceMap& map, float reach, float step) {
                 if (!map.position.contains(n.x, n.y)) continue;
                 const std::size_t there = map.position.index(n.x, n.y);
                 if (!edge_between(map, here, there, step)) continue;
-                width = std::max(width, width_at(map, here, there, reach));
+                width = std::max(width, width_at(map, here, there, band));
             }
             widths(x, y) = {std::uint8_t(width), std::uint8_t(width)};
         }
@@ -81,8 +82,8 @@ void spread(Image<Width>& widths) {
 
 }  // namespace
 
-Image<std::uint8_t> edge_band(const SurfaceMap& map, float reach, float step) {
-    Image<Width> widths = width_of_edges(map, reach, step);
+Image<std::uint8_t> edge_band(const SurfaceMap& map, const BandWidth& width, float step) {
+    Image<Width> widths = width_of_edges(map, width, step);
     spread(widths);
     Image<std::uint8_t> band(widths.width, widths.height, 0);
     for (std::size_t i = 0; i < band.pixels.size(); ++i)

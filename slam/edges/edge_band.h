@@ -7,9 +7,18 @@
 
 namespace inlay {
 
-/// The half-width (px) of the band that a pixel is in: those within `reach` (m, across the nearer
-/// surface; 1 to 8 px) of a depth step or of a hole; 0 elsewhere. A step is a neighbour that lies
-/// off the plane of a pixel by more than `step` of its depth, and the other way round.
-Image<std::uint8_t> edge_band(const SurfaceMap& map, float reach, float step);
+constexpr int widest_band = 8;  // px
+
+/// How far from an edge depth is not trusted: by `reach` (m, across the nearer surface), 1 to 8 px;
+/// and by 2.5 times that where it is no more than `smear` px.
+struct BandWidth {
+    float reach = 0;
+    int smear = 0;
+};
+
+/// The half-width (px) of the band that a pixel is in, near a depth step or a hole; 0 elsewhere. A
+/// step is a neighbour that lies off the plane of a pixel by more than `step` of its depth, and the
+/// other way round.
+Image<std::uint8_t> edge_band(const SurfaceMap& map, const BandWidth& width, float step);
 
 }  // namespace inlay

@@ -16,6 +16,7 @@ namespace {
 
 constexpr float steepest = 0.1f;      // share of depth by which a plane is followed
 constexpr float least_share = 0.06f;  // of a pixel; less of a second surface is not kept
+constexpr int smear = 100;            // of the image's width, by which sensors smear depth steps
 constexpr float noise = 0.02f;        // of encoded color, 0..1
 constexpr float cost_of_way = 0.1f;   // of samples at the window's border, in squared misfits
 
@@ -170,6 +171,33 @@ private:
     CameraView view_;
 };
 
+/// Moves the edges that are within a band.
+void move_edges(SurfaceMap& map, const Image<EncodedRgb>& photo, const BandWidth& width, float step,
+                float contrast) {
+    const Image<std::uint8_t> band = edge_band(map, width, step);
+    const SideFinder finder(map, band);
+    Image<Verdict> verdicts(band.width, band.height);
+    parallel_rows(band.height, [&](int y) {
+        for (int x = 0; x < band.width; ++x) {
+            if (band(x, y) == 0) continue;
+            verdicts(x, y) =
+                judge(photo, band(x, y), finder.around(x, y), band.index(x, y), contrast);
+        }
+    });
+    const Mover mover(map, band, verdicts);
+    map.split = {Image<std::uint32_t>(band.width, band.height, 0), {}};
+    for (int y = 0; y < band.height; ++y) {
+        for (int x = 0; x < band.width; ++x) {
+            if (!verdicts(x, y).known) continue;
+            mover.move(map, x, y);
+            const auto second = mover.second(x, y);
+            if (!second) continue;
+            map.split.second.push_back(*second);
+            map.split.number(x, y) = std::uint32_t(map.split.second.size());
+        }
+    }
+}
+
 }  // namespace
 
 void validate(const EdgeSettings& s) {
@@ -184,28 +212,9 @@ void follow_photograph(SurfaceMap& map, const Image<EncodedRgb>& photo,
     map.split = {};
     if (settings.reach == 0 || photo.empty()) return;
     require(same_size(map.position, photo), "a photograph and its surface map differ in size");
-    const Image<std::uint8_t> band = edge_band(map, settings.reach, settings.step);
-    const SideFinder finder(map, band);
-    Image<Verdict> verdicts(band.width, band.height);
-    parallel_rows(band.height, [&](int y) {
-        for (int x = 0; x < band.width; ++x) {
-            if (band(x, y) == 0) continue;
-            verdicts(x, y) =
-                judge(photo, band(x, y), finder.around(x, y), band.index(x, y), settings.contrast);
-        }
-    });
-    const Mover mover(map, band, verdicts);
-    map.split.number = Image<std::uint32_t>(band.width, band.height, 0);
-    for (int y = 0; y < band.height; ++y) {
-        for (int x = 0; x < band.width; ++x) {
-            if (!verdicts(x, y).known) continue;
-            mover.move(map, x, y);
-            const auto second = mover.second(x, y);
-            if (!second) continue;
-            map.split.second.push_back(*second);
-            map.split.number(x, y) = std::uint32_t(map.split.second.size());
-        }
-    }
+    move_edges(map, photo, {settings.reach, photo.width / smear}, settings.step,
+               2 * settings.contrast);
+    move_edges(map, photo, {settings.reach, 0}, settings.step, settings.contrast);
 }
 
 }  // namespace inlay

@@ -1,6 +1,7 @@
 #include "slam/edges/two_sides.h"
 
 #include "recordings/base/parallel.h"
+#include "slam/edges/edge_band.h"
 
 #include <algorithm>
 #include <bitset>
@@ -14,7 +15,6 @@ constexpr int last_class = 250;   // of depth that is known
 constexpr float nearest = 0.25f;  // m, of the second class
 constexpr float ratio = 1.0125f;  // of depth, from class to class: up to 5.6 m
 constexpr int gap = 2;            // classes, at least, that are empty between two surfaces
-constexpr int widest_band = 8;    // px
 constexpr int tile = 4;           // px
 
 int class_of(float z) {
@@ -54,8 +54,16 @@ SideFinder::SideFinder(const SurfaceMap& map, const Image<std::uint8_t>& band)
     });
     parallel_rows(runs_.height, [&](int y) {
         for (int x = 0; x < runs_.width; ++x)
-            runs_(x, y) = runs_around(tile * x + tile / 2, tile * y + tile / 2);
+            if (asked(x, y)) runs_(x, y) = runs_around(tile * x + tile / 2, tile * y + tile / 2);
     });
+}
+
+/// Whether a tile has a pixel of the band.
+bool SideFinder::asked(int x, int y) const {
+    for (int j = tile * y; j < std::min(tile * (y + 1), band_.height); ++j)
+        for (int i = tile * x; i < std::min(tile * (x + 1), band_.width); ++i)
+            if (band_(i, j) != 0) return true;
+    return false;
 }
 
 /// The surfaces that trusted pixels around show. More than fit are taken for the last one.

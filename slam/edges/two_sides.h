@@ -55,6 +55,7 @@ private:
     using Runs = std::array<Run, most_runs>;  // nearest first
 
     static std::vector<Step> steps_within(int reach, int stride);
+    bool asked(int x, int y) const;
     Runs runs_around(int x, int y) const;
     float from_edge(int x, int y, const Run& own) const;
 
