@@ -10,7 +10,7 @@ namespace inlay {
 constexpr int widest_band = 8;  // px
 
 /// How far from an edge depth is not trusted: by `reach` (m, across the nearer surface), 1 to 8 px;
-/// and by 2.5 times that where it is no more than `smear` px.
+/// and by up to 2.5 times that, but then no more than `smear` px.
 struct BandWidth {
     float reach = 0;
     int smear = 0;

@@ -46,8 +46,9 @@ SideFinder::SideFinder(const SurfaceMap& map, const Image<std::uint8_t>& band)
     : band_(band),
       depth_class_(band.width, band.height),
       runs_((band.width + tile - 1) / tile, (band.height + tile - 1) / tile),
+      window_(steps_within(window, 1)),
       sparse_(steps_within(window, 2)),
-      dense_(steps_within(widest_band + 1, 1)) {
+      near_(steps_within(widest_band + 1, 1)) {
     parallel_rows(band.height, [&](int y) {
         for (int x = 0; x < band.width; ++x)
             depth_class_(x, y) = std::uint8_t(class_of(map.position(x, y).z));
@@ -69,7 +70,7 @@ bool SideFinder::asked(int x, int y) const {
 /// The surfaces that trusted pixels around show. More than fit are taken for the last one.
 SideFinder::Runs SideFinder::runs_around(int x, int y) const {
     std::bitset<unknown_class + 1> seen;
-    for (const Step& step : sparse_) {
+    for (const Step& step : window_) {
         const int i = x + step.by.x, j = y + step.by.y;
         if (band_.contains(i, j) && band_(i, j) == 0) seen.set(depth_class_(i, j));
     }
@@ -88,7 +89,7 @@ SideFinder::Runs SideFinder::runs_around(int x, int y) const {
 
 float SideFinder::from_edge(int x, int y, const Run& own) const {
     const int farthest = band_(x, y) + 1;
-    for (const Step& step : dense_) {
+    for (const Step& step : near_) {
         if (step.distance2 >= farthest * farthest) break;
         const int i = x + step.by.x, j = y + step.by.y;
         if (band_.contains(i, j) && !own.holds(depth_class_(i, j)))
@@ -116,6 +117,7 @@ TwoSides SideFinder::around(int x, int y) const {
         const int i = x + step.by.x, j = y + step.by.y;
         if (!band_.contains(i, j) || band_(i, j) != 0) continue;
         const int run = run_of(depth_class_(i, j), 0);
+        if (run == none) continue;
         if (own == none) own = run;
         if (run != own && other == none) other = run;
         if (run == own) add(of_own, band_.index(i, j), step.distance2);

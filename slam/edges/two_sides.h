@@ -28,6 +28,7 @@ struct TwoSides {
 
 /// Looks for two surfaces around pixels of a surface map. Surfaces are runs of depth, in classes of
 /// 1.25 %, with at least two empty classes between them; pixels without depth are one, behind all.
+/// A plane seen so flat that depth grows by 4 % from pixel to pixel counts as several.
 class SideFinder {
 public:
     /// `band`: as edge_band(); pixels outside it are trusted. Both must outlive the finder.
@@ -61,8 +62,8 @@ private:
 
     const Image<std::uint8_t>& band_;
     Image<std::uint8_t> depth_class_;
-    Image<Runs> runs_;                  // of tiles
-    std::vector<Step> sparse_, dense_;  // nearest first; every second pixel, and every one
+    Image<Runs> runs_;                          // of tiles
+    std::vector<Step> window_, sparse_, near_;  // nearest first: all, every second, up to a band
 };
 
 }  // namespace inlay

@@ -70,10 +70,11 @@ bool trusted(const SlamState& state, const TrackResult& tracking) {
 
 /// Goes on from a pose that is not trusted enough to change the model.
 void follow(SlamState& state, const Pose& world_from_camera, const SlamSettings& settings) {
+    state.before_last.reset();
+    if (state.frames_lost == 0) state.before_last = state.model->world_from_camera;
     state.model =
         raycast_volume(state.volume, state.seen->lens, world_from_camera, settings.raycast);
     state.photograph = {};
-    state.before_last.reset();
     state.frames_lost = 0;
 }
 

@@ -18,7 +18,7 @@ struct SlamState {
     std::optional<SurfaceMap> seen;  // what the last fused frame itself saw; empty before the first
     std::optional<SurfaceMap> model;  // raycast from the pose of the last frame that is not lost
     Image<EncodedRgb> photograph;     // taken there; empty if that frame was not fused
-    std::optional<Pose> before_last;  // world_from_camera of the fused frame before, if both were
+    std::optional<Pose> before_last;  // world_from_camera of the frame before, if neither was lost
     bool fused = false;               // whether the last frame is in the model
     std::vector<Keyframe> keyframes;  // for finding the way back
     int frames_lost = 0;              // since the last good one
@@ -36,7 +36,8 @@ SlamState start_slam(const SlamSettings& settings);
 /// Tracks one frame and fuses it. With a known pose nothing is tracked. Else the first frame is
 /// anchored at its recorded pose, or at the identity, and every later one is tracked against the
 /// model; recorded poses are not used again. Frames are fused if their pose can be trusted: if they
-/// are tracked, or weakly so and where the camera was expected. A frame that is lost has the last
+/// are tracked, or weakly so and where the camera was expected: gone on, or where the frame before
+/// had it, weak or not. A frame that is lost has the last
 /// good pose, and the following frames look for the way back from there and from earlier views.
 /// Throws Error if the frame's images do not have the lens's size.
 TrackResult track_and_fuse(SlamState& state, const RgbdFrame& frame, const SlamSettings& settings,

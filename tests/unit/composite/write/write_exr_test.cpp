@@ -10,6 +10,7 @@
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfMatrixAttribute.h>
 #include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfVecAttribute.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -117,7 +118,12 @@ TEST(WriteExr, SaysItsPrimariesFrameAndPose) {
     Pose pose;
     pose.rotation = glm::dmat3(0, 1, 0, -1, 0, 0, 0, 0, 1);  // x to y
     pose.translation = {1, 2, 3};
-    write_exr(folder / "a.exr", {.picture = &grey, .frame = 12, .world_from_camera = pose});
+    write_exr(
+        folder / "a.exr",
+        {.picture = &grey, .frame = 12, .world_from_camera = pose, .exposure = {1.5f, 1, 0.75f}});
+    write_exr(folder / "b.exr", {.picture = &grey});
+    const Imf::InputFile plain((folder / "b.exr").string().c_str());
+    EXPECT_FALSE(plain.header().findTypedAttribute<Imf::V3fAttribute>("inlay/exposure"));
     Imf::InputFile file((folder / "a.exr").string().c_str());
     ASSERT_TRUE(Imf::hasChromaticities(file.header()));
     EXPECT_EQ(Imf::chromaticities(file.header()).red, Imath::V2f(0.64f, 0.33f));
@@ -125,6 +131,8 @@ TEST(WriteExr, SaysItsPrimariesFrameAndPose) {
     const Imath::M44f m =
         file.header().typedAttribute<Imf::M44fAttribute>("inlay/worldFromCamera").value();
     EXPECT_EQ(m, Imath::M44f(0, -1, 0, 1, 1, 0, 0, 2, 0, 0, 1, 3, 0, 0, 0, 1));
+    EXPECT_EQ(file.header().typedAttribute<Imf::V3fAttribute>("inlay/exposure").value(),
+              Imath::V3f(1.5f, 1, 0.75f));
 }
 
 TEST(WriteExr, EqualPixelsGiveEqualBytes) {
