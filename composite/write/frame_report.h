@@ -41,7 +41,7 @@ struct FrameReport {
     TrackingStatus tracking = TrackingStatus::tracked;
     Pose world_from_camera{};  // of the camera that took the photograph
     glm::vec3 exposure{1};     // of the photograph, relative to that of the model's colors, per
-                            // channel; in the line only where it is not 1
+                               // channel; in the line only where it is not 1
     StageTimes ms{};
     RayCounts rays{};
     PixelCounts pixels{};

@@ -16,7 +16,7 @@ namespace {
 
 constexpr float steepest = 0.1f;      // share of depth by which a plane is followed
 constexpr float least_share = 0.06f;  // of a pixel; less of a second surface is not kept
-constexpr int smear = 100;            // of the image's width, by which sensors smear depth steps
+constexpr int smear = 100;            // the image's width over what sensors smear depth steps by
 constexpr float noise = 0.02f;        // of encoded color, 0..1
 constexpr float cost_of_way = 0.1f;   // of samples at the window's border, in squared misfits
 
@@ -28,7 +28,7 @@ struct Verdict {
     std::size_t near = 0, far = 0;  // pixels whose planes it sees
 };
 
-/// A photograph's encoded colors, 0..1.
+/// A pixel's encoded color, 0..1.
 glm::vec3 color_at(const Image<EncodedRgb>& photo, std::size_t pixel) {
     const EncodedRgb& c = photo.pixels[pixel];
     return glm::vec3(c.r, c.g, c.b) / 255.0f;

@@ -37,9 +37,9 @@ SlamState start_slam(const SlamSettings& settings);
 /// anchored at its recorded pose, or at the identity, and every later one is tracked against the
 /// model; recorded poses are not used again. Frames are fused if their pose can be trusted: if they
 /// are tracked, or weakly so and where the camera was expected: gone on, or where the frame before
-/// had it, weak or not. A frame that is lost has the last
-/// good pose, and the following frames look for the way back from there and from earlier views.
-/// Throws Error if the frame's images do not have the lens's size.
+/// had it, weak or not. A frame that is lost has the last good pose, and the following frames look
+/// for the way back from there and from earlier views. Throws Error if the frame's images do not
+/// have the lens's size.
 TrackResult track_and_fuse(SlamState& state, const RgbdFrame& frame, const SlamSettings& settings,
                            const std::optional<Pose>& known_world_from_camera);
 

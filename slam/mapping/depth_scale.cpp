@@ -13,11 +13,11 @@ namespace {
 
 constexpr int frames_read = 5;            // spread over the recording
 constexpr std::size_t stride = 37;        // px, between those that are read
-constexpr double low_share = 0.02;        // of the pixels, that are left out as too near
+constexpr double low_share = 0.02;        // of the pixels that may be nearer than the least
 constexpr float least_nearest = 0.25f;    // m
 constexpr float least_median = 0.4f;      // m
 constexpr float most_median = 3.75f;      // m
-constexpr std::size_t least_pixels = 50;  // in common, to compare two views
+constexpr std::size_t least_pixels = 50;  // measured, or in common of two views, to tell anything
 constexpr float least_factor = 1.5f;      // either way; less may be a motion
 constexpr float same_factor = 1.15f;      // from the median one, either way
 constexpr float most_of_them = 0.8f;      // share of the pixels

@@ -20,8 +20,8 @@ constexpr int most_loops = 4;             // that end at one view: the oldest
 constexpr std::size_t views_matched = 5;  // that have most landmarks in common
 constexpr float least_overlap = 0.3f;     // of a view with the other
 constexpr float least_inliers = 0.6f;     // share of the overlap
-constexpr std::array<double, 3> shares_of_motion{0.33, 0.67,
-                                                 1};  // from the view before to the last
+// Of the last motion between two views: where the next view may be.
+constexpr std::array<double, 3> shares_of_motion{0.33, 0.67, 1};
 constexpr PairingSettings wide{0.3f, 0.8f, 1};
 constexpr PairingSettings close{0.04f, 0.8f, 1};
 

@@ -1,7 +1,7 @@
 // The volume: finding bricks, fusing depth, and seeing the fused surface again.
 #include "recordings/base/check.h"
-#include "slam/volume/fuse_depth.h"
 #include "slam/depth/surface_from_depth.h"
+#include "slam/volume/fuse_depth.h"
 #include "slam/volume/raycast_volume.h"
 #include "slam/volume/sample_volume.h"
 #include "tests/unit/slam/analytic_room.h"
