@@ -8,7 +8,7 @@
 namespace inlay {
 namespace {
 
-void attach(RTCDevice device, RTCScene scene, const PlacedPart& part) {
+void attach(RTCDevice device, RTCScene scene, const PlacedPart& part, RTCBuildQuality quality) {
     RTCGeometry geometry = nullptr;
     const glm::mat4& place = part.world_from_local;
     if (!part.mesh) {
@@ -29,6 +29,7 @@ void attach(RTCDevice device, RTCScene scene, const PlacedPart& part) {
             vertices[i] = glm::vec3(place * glm::vec4(mesh.positions[i], 1));
         std::copy(mesh.triangles.begin(), mesh.triangles.end(), indices);
     }
+    rtcSetGeometryBuildQuality(geometry, quality);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
@@ -79,11 +80,12 @@ int trace(RTCScene scene, const BareRays::Packet& packet) {
 
 }  // namespace
 
-BareScene::BareScene(const std::vector<const EmbreeScene*>& scenes)
+BareScene::BareScene(const std::vector<const EmbreeScene*>& scenes, RTCBuildQuality quality)
     : device_(rtcNewDevice("isa=avx2")), scene_(rtcNewScene(device_)) {
+    rtcSetSceneBuildQuality(scene_, quality);
     for (const EmbreeScene* scene : scenes)
         for (const PlacedPart& part : scene->parts())
-            attach(device_, scene_, part);
+            attach(device_, scene_, part, quality);
     rtcCommitScene(scene_);
 }
 

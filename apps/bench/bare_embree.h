@@ -13,7 +13,8 @@ namespace inlay {
 /// Parts of scenes in world space, without instances and without the robust flag.
 class BareScene {
 public:
-    explicit BareScene(const std::vector<const EmbreeScene*>& scenes);
+    explicit BareScene(const std::vector<const EmbreeScene*>& scenes,
+                       RTCBuildQuality quality = RTC_BUILD_QUALITY_MEDIUM);
     ~BareScene();
     BareScene(const BareScene&) = delete;
     BareScene& operator=(const BareScene&) = delete;

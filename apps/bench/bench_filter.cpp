@@ -1,10 +1,18 @@
-// How long the environment filter takes for a frame with every layer filled.
-#include "recordings/base/parallel.h"
+// How long the environment filter takes for a frame with every layer filled, beside going through
+// its memory once and beside the arithmetic of its kernels alone.
+#include "recordings/base/keep_memory.h"
 #include "recordings/base/random.h"
 #include "render/filter/environment_bandwidth.h"
 #include "render/filter/filter_layers.h"
 
+#include "apps/bench/best_times.h"
+#include "apps/bench/filter_arithmetic.h"
+#include "apps/bench/streaming.h"
 #include <benchmark/benchmark.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <string>
 
 namespace inlay {
 namespace {
@@ -53,28 +61,78 @@ NoisyLayers ball_on_plane(int width, int height, std::uint32_t frame) {
     return n;
 }
 
-void filter_frame(benchmark::State& state) {
-    set_thread_count(int(state.range(0)));
-    const NoisyLayers before = ball_on_plane(640, 480, 0), now = ball_on_plane(640, 480, 1);
-    for (auto _ : state)
-        benchmark::DoNotOptimize(
-            filter_layers(now, state.range(1) != 0 ? &before : nullptr, 10, FilterSettings{}));
+/// Everything that filter_layers() has to read and to write at least once, in whole images.
+Traffic traffic_of(const NoisyLayers& now, const NoisyLayers* previous, const Layers& filtered) {
+    Traffic traffic;
+    traffic.reads(now.m), traffic.reads(now.k_v), traffic.reads(now.s_rv);
+    traffic.reads(now.glossy_bandwidth);
+    for (const NoisyLayers* n : {&now, previous}) {
+        if (n == nullptr) continue;
+        for (const Irradiance* e : {&n->direct, &n->indirect})
+            traffic.reads(e->e_r), traffic.reads(e->e_rv_real), traffic.reads(e->e_rv_virtual);
+        for (const Receiver* r : {&n->real, &n->virtual_}) {
+            traffic.reads(r->object), traffic.reads(r->position), traffic.reads(r->normal);
+            traffic.reads(r->occluder_direct), traffic.reads(r->occluder_indirect);
+        }
+    }
+    traffic.writes(filtered.m), traffic.writes(filtered.k_v), traffic.writes(filtered.s_rv);
+    for (const Irradiance* e : {&filtered.direct, &filtered.indirect})
+        traffic.writes(e->e_r), traffic.writes(e->e_rv_real), traffic.writes(e->e_rv_virtual);
+    traffic.writes(filtered.bandwidth_direct), traffic.writes(filtered.bandwidth_indirect);
+    return traffic;
 }
-BENCHMARK(filter_frame)
-    ->ArgNames({"threads", "temporal"})
-    ->ArgsProduct({{1, 2}, {0, 1}})
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
 
-void bandwidth_of_environment(benchmark::State& state) {
+std::string filter_name(bool temporal, int threads) {
+    return std::string("filter") + (temporal ? " with the frame before" : "") + "/" +
+           std::to_string(threads);
+}
+
+/// The filter, and what no filter of its kernels can do without.
+void add_filter(const NoisyLayers& now, const NoisyLayers* previous, int threads) {
+    const FilterSettings settings;
+    const auto filter = [&now, previous, settings] {
+        return filter_layers(now, previous, 10, settings);
+    };
+    const Traffic traffic = traffic_of(now, previous, filter());
+    const KernelWork work = kernel_work(now, previous != nullptr, settings);
+    const std::string name = filter_name(previous != nullptr, threads);
+    add_benchmark(name, threads, {}, [filter] { benchmark::DoNotOptimize(filter()); });
+    add_benchmark(name + "/its bytes alone", threads, {"bytes", bytes_of(traffic)},
+                  streaming(traffic));
+    add_benchmark(name + "/its arithmetic alone", threads, {"weights", work.weights},
+                  arithmetic(work));
+}
+
+int run(int argc, char** argv) {
+    keep_freed_memory();
+    const NoisyLayers before = ball_on_plane(640, 480, 0), now = ball_on_plane(640, 480, 1);
+    constexpr std::size_t copied = 64 << 20;  // bytes, more than caches hold
+    for (const int threads : {1, 2}) {
+        for (const NoisyLayers* previous : {static_cast<const NoisyLayers*>(nullptr), &before})
+            add_filter(now, previous, threads);
+        add_benchmark("copy/" + std::to_string(threads), threads, {"bytes", 2.0 * copied},
+                      copying(copied));
+    }
     Image<Rgb> map(4096, 2048, Rgb(0.3f));
     map(1000, 700) = Rgb(1e5f);
-    for (auto _ : state)
-        benchmark::DoNotOptimize(environment_bandwidth(map));
+    add_benchmark("bandwidth of environment", 1, {},
+                  [&] { benchmark::DoNotOptimize(environment_bandwidth(map)); });
+
+    benchmark::Initialize(&argc, argv);
+    benchmark::RunSpecifiedBenchmarks();
+    std::cout << "\n";
+    for (const bool temporal : {false, true}) {
+        for (const int threads : {1, 2}) {
+            const std::string name = filter_name(temporal, threads);
+            print_ratio(name, name + "/its bytes alone");
+            print_ratio(name, name + "/its arithmetic alone");
+        }
+        print_ratio(filter_name(temporal, 1), filter_name(temporal, 2));
+    }
+    return EXIT_SUCCESS;
 }
-BENCHMARK(bandwidth_of_environment)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
 }  // namespace inlay
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) { return inlay::run(argc, argv); }

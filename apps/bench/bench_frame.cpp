@@ -7,22 +7,21 @@
 #include "recordings/base/parallel.h"
 
 #include "apps/bench/bare_embree.h"
+#include "apps/bench/best_times.h"
 #include "apps/bench/thesis_rays.h"
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <filesystem>
-#include <functional>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace inlay {
 namespace {
+
+constexpr int repeats = 5;
 
 /// One frame of a recording, tracked, with its objects in place.
 struct Subject {
@@ -37,10 +36,15 @@ struct Subject {
         result.estimator = estimator;
         return result;
     }
-    TwoModeResult sample(const SamplingSettings& sampling) const {
+    /// `light`: what is known of E_R; null: it is sampled afresh.
+    TwoModeResult sample(const SamplingSettings& sampling, ModelLight* light = nullptr) const {
         return sample_two_modes(
-            {frame.lens, frame.world_from_camera, frame.geometry, objects, work.environment},
+            {frame.lens, frame.world_from_camera, frame.geometry, objects, work.environment, light},
             sampling, std::uint32_t(frame.frame));
+    }
+    std::unique_ptr<ModelLight> model_light(const SamplingSettings& sampling) const {
+        return make_model_light(frame.room->mesh, work.environment, sampling,
+                                frame.geometry.offset);
     }
 };
 
@@ -59,7 +63,7 @@ struct OwnRays {
     BareRays on_virtual, on_real;
 };
 
-OwnRays own_rays(Subject& subject, const SamplingSettings& sampling) {
+OwnRays own_rays(Subject& subject, const SamplingSettings& sampling, ModelLight* light) {
     set_thread_count(1);  // a log is for one thread
     RayLog on_virtual, on_real;
     subject.objects.log_to(&on_virtual);
@@ -77,63 +81,31 @@ OwnRays own_rays(Subject& subject, const SamplingSettings& sampling) {
         on_real.queries.push_back({rays, true});
         return plain.radiances(rays, keys);
     };
-    subject.sample(sampling);
+    subject.sample(sampling, light);
     subject.frame.geometry = plain;
     subject.objects.log_to(nullptr);
     return {bare_rays(on_virtual), bare_rays(on_real)};
 }
 
-/// Best times by name, in ms: what the ratios at the end are made of.
-std::map<std::string, double>& best_times() {
-    static std::map<std::string, double> times;
-    return times;
-}
+Amount rays_of(const BareRays& a, const BareRays& b) { return {"rays", double(a.rays + b.rays)}; }
 
-void add_benchmark(const std::string& name, int threads, std::uint64_t rays,
-                   const std::function<void()>& body) {
-    benchmark::RegisterBenchmark(
-        name.c_str(),
-        [=](benchmark::State& state) {
-            set_thread_count(threads);
-            double best = 1e300;
-            for (auto _ : state) {
-                const auto start = std::chrono::steady_clock::now();
-                body();
-                const std::chrono::duration<double> s = std::chrono::steady_clock::now() - start;
-                state.SetIterationTime(s.count());
-                best = std::min(best, 1e3 * s.count());
-            }
-            best_times()[name] = best;
-            state.counters["rays"] = benchmark::Counter(double(rays));
-            state.counters["rays/s"] =
-                benchmark::Counter(double(rays), benchmark::Counter::kIsIterationInvariantRate);
-        })
-        ->Unit(benchmark::kMillisecond)
-        ->UseManualTime()
-        ->Iterations(5);
-}
-
-/// The sampler, and Embree alone with the same rays.
+/// The sampler, and Embree alone with the same rays. `light` is known before.
 void add_sampler(const std::string& name, Subject& subject, const SamplingSettings& sampling,
-                 const BareScene& on_real, const BareScene& on_virtual) {
-    const auto rays = std::make_shared<const OwnRays>(own_rays(subject, sampling));
-    const std::uint64_t count = rays->on_real.rays + rays->on_virtual.rays;
-    const auto sample = [&subject, sampling] {
-        benchmark::DoNotOptimize(subject.sample(sampling));
+                 const BareScene& on_real, const BareScene& on_virtual,
+                 const std::shared_ptr<ModelLight>& light = nullptr) {
+    if (light) subject.sample(sampling, light.get());
+    const auto rays = std::make_shared<const OwnRays>(own_rays(subject, sampling, light.get()));
+    const Amount count = rays_of(rays->on_real, rays->on_virtual);
+    const auto sample = [&subject, sampling, light] {
+        benchmark::DoNotOptimize(subject.sample(sampling, light.get()));
     };
-    add_benchmark(name, 2, count, sample);
-    add_benchmark(name + "/1 thread", 1, count, sample);
-    add_benchmark(name + "/its rays alone", 2, count, [rays, &on_real, &on_virtual] {
+    const auto trace = [rays, &on_real, &on_virtual] {
         benchmark::DoNotOptimize(trace_bare(on_real, rays->on_real));
         benchmark::DoNotOptimize(trace_bare(on_virtual, rays->on_virtual));
-    });
-}
-
-void print_ratio(const std::string& above, const std::string& below) {
-    const auto& times = best_times();
-    const auto a = times.find(above), b = times.find(below);
-    if (a == times.end() || b == times.end()) return;
-    std::cout << above << " / " << below << ": " << a->second / b->second << "\n";
+    };
+    add_benchmark(name, 2, count, sample, repeats);
+    add_benchmark(name + "/1 thread", 1, count, sample, repeats);
+    add_benchmark(name + "/its rays alone", 2, count, trace, repeats);
 }
 
 int run(int argc, char** argv) {
@@ -154,23 +126,28 @@ int run(int argc, char** argv) {
         std::make_shared<const BareRays>(thesis_rays(subject.work, subject.frame, nullptr, real));
     const auto in_all = std::make_shared<const BareRays>(
         thesis_rays(subject.work, subject.frame, &subject.objects, all));
-    add_benchmark("two scenes", 2, in_real->rays + in_all->rays, [&, in_real, in_all] {
+    const auto trace_two_scenes = [&, in_real, in_all] {
         benchmark::DoNotOptimize(trace_bare(real, *in_real));
         benchmark::DoNotOptimize(trace_bare(all, *in_all));
-    });
+    };
+    add_benchmark("two scenes", 2, rays_of(*in_real, *in_all), trace_two_scenes, repeats);
     SamplingSettings everything = subject.sampling(Estimator::two_mode);
     everything.coverage = 0;
     everything.virtual_repeats = 1;  // the thesis's samples, one for one
     add_sampler("two modes", subject, everything, real, objects);
-    add_sampler("difference", subject, subject.sampling(Estimator::difference), real, objects);
-    add_benchmark("difference on screen", 2, 0, [&marched] {
+    const SamplingSettings difference = subject.sampling(Estimator::difference);
+    add_sampler("difference", subject, difference, real, objects);
+    add_sampler("difference, E_R kept", subject, difference, real, objects,
+                subject.model_light(difference));
+    const auto march = [&marched] {
         benchmark::DoNotOptimize(marched.sample(marched.sampling(Estimator::difference)));
-    });
+    };
+    add_benchmark("difference on screen", 2, {}, march, repeats);
 
     benchmark::Initialize(&argc, argv);
     benchmark::RunSpecifiedBenchmarks();
     std::cout << "\n";
-    for (const std::string name : {"two modes", "difference"}) {
+    for (const std::string name : {"two modes", "difference", "difference, E_R kept"}) {
         print_ratio(name, "two scenes");
         print_ratio(name, name + "/its rays alone");
         print_ratio(name + "/1 thread", name);

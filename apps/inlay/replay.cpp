@@ -87,9 +87,12 @@ EffectPlan plan_of(const Session& session, const RecordingInfo& info,
                    const SceneRequests& requests) {
     const std::optional<Pose> pose = first_pose(info, session.settings);
     const double first = info.times.front();
-    SceneFacts facts = gather_facts(
-        {session.scene, session.bounds, info.lens, pose.value_or(Pose{}), first,
-         info.times.size() > 1 ? info.times[1] : first, session.environment.mean_luminance > 0});
+    const double next = info.times.size() > 1 ? info.times[1] : first;
+    SlamStep view;
+    if (session.known) view.gain = session.known->frames.front().gain;
+    view.surface.lens = info.lens;
+    view.tracking.world_from_camera = pose.value_or(Pose{});
+    SceneFacts facts = gather_facts(in_frame(session, view, first, next));
     facts.tracked = pose.has_value();
     facts.first_frame = info.times.size() == 1;
     facts.requests = requests;

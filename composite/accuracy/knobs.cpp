@@ -58,6 +58,8 @@ std::vector<Knob> knobs(bool quick) {
             setting("filter.visibility_safety", {"1", "0.5", "2", "4"}),
             setting("filter.kernel_radius", {"15", "4", "8", "30"}),
             setting("trace.coverage", {"32", "0", "8", "128"}),
+            setting("trace.spread", {"on", "off"}),
+            setting("trace.gathered", {"64", "0", "16", "256"}),
             {"light_list", {"tables", "256", "1024", "4096", "16384"}, turn_light_list},
             geometry,
             voxel,

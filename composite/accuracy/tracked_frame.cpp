@@ -40,6 +40,7 @@ void stand_in(const Work& work, TrackedFrame& frame) {
     frame.exact_room = std::make_shared<const EmbreeScene>(place_room(work, frame.time));
     frame.geometry = exact_real_geometry(*frame.exact_room, work.environment, first_path_dimension);
     frame.depth_tolerance = 0;
+    frame.kept = nullptr;
 }
 
 /// The work's recording, with the sensor's depth or the true one.
@@ -69,6 +70,8 @@ std::vector<TrackedFrame> track_frames(const Work& work, const std::vector<int>&
     const double known_ms = watch.lap() / double(seen.info.frames.size());
     SlamState slam = start_slam(settings.slam);
     TracedModel model;
+    const bool keeps = known && settings.geometry.kind == RealGeometryKind::model;
+    const auto kept_light = keeps ? std::make_shared<KeptLight>() : nullptr;
     std::vector<TrackedFrame> result;
     int count = 0;
     for (std::size_t i = 0; i < seen.info.frames.size() && result.size() < frames.size(); ++i) {
@@ -85,6 +88,7 @@ std::vector<TrackedFrame> track_frames(const Work& work, const std::vector<int>&
         if (!wanted) continue;
         result.push_back(kept(frame, std::move(step), volume, model, settings));
         result.back().slam_ms = ms;
+        result.back().kept = kept_light;
     }
     return result;
 }

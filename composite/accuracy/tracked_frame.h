@@ -4,11 +4,18 @@
 #include "composite/accuracy/work.h"
 #include "composite/blend/photo.h"
 #include "composite/session/real_scene.h"
+#include "render/trace/model_light.h"
 
+#include <map>
 #include <memory>
 #include <vector>
 
 namespace inlay {
+
+/// What frames of one model keep of its light, by seed.
+struct KeptLight {
+    std::map<std::uint32_t, std::unique_ptr<ModelLight>> by_seed;
+};
 
 /// Everything that does not depend on the samples. Movable and cheap to copy.
 struct TrackedFrame {
@@ -21,6 +28,7 @@ struct TrackedFrame {
     std::shared_ptr<const RealScene> room;          // of a recording
     std::shared_ptr<const EmbreeScene> exact_room;  // of a scene, or where truth stands in
     RealGeometry geometry;                          // refers to one of the two
+    std::shared_ptr<KeptLight> kept;                // of a finished model; null: nothing is kept
     float depth_tolerance = 0;                      // share of depth, as SamplingSettings
     double slam_ms = 0;                             // wall time of its tracking and fusion
 };

@@ -125,12 +125,21 @@ SampledFrame sample_frame(const Work& work, const TrackedFrame& frame,
     const EmbreeScene objects = EmbreeSceneCache().place(work.scene, frame.time, /*real=*/false);
     SamplingSettings settings = sampling;
     settings.depth_tolerance = frame.depth_tolerance;
-    CostWatch watch;
-    SampledFrame sampled;
-    sampled.result = sample_two_modes(
-        {frame.lens, frame.world_from_camera, frame.geometry, objects, work.environment}, settings,
-        index);
-    sampled.cost = watch.lap();
+    TwoModeScene scene{frame.lens, frame.world_from_camera, frame.geometry, objects,
+                       work.environment};
+    if (frame.kept)
+        scene.model_light = keep_model_light(frame.kept->by_seed[settings.seed], frame.room->mesh,
+                                             work.environment, settings, frame.geometry.offset);
+    const auto sample = [&] {
+        CostWatch watch;
+        SampledFrame sampled;
+        sampled.result = sample_two_modes(scene, settings, index);
+        sampled.cost = watch.lap();
+        return sampled;
+    };
+    SampledFrame sampled = sample();
+    // The cost is that of a frame whose E_R the frames before have gathered: the same again.
+    if (sampled.result.gathering.real_indirect > 0) sampled = sample();
     return sampled;
 }
 

@@ -1,6 +1,7 @@
 #include "composite/blend/differential.h"
 
 #include "recordings/base/check.h"
+#include "recordings/base/lanes.h"
 #include "recordings/base/parallel.h"
 
 #include <algorithm>
@@ -13,11 +14,14 @@
 namespace inlay {
 namespace {
 
-/// The terms of eq. 6.2 at one pixel. Double, so that sums and products of finite floats stay
-/// finite.
+/// Red, green, blue and a lane that stays 0. Double, so that sums and products of finite floats
+/// stay finite.
+using Channels = stdx::simd<double, stdx::simd_abi::deduce_t<double, 4>>;
+
+/// The terms of eq. 6.2 at one pixel.
 struct Terms {
     double m = 1;
-    glm::dvec3 k_v{0}, s_rv{0}, e_r{0}, e_rv_real{0}, e_rv_virtual{0};
+    Channels k_v = 0, s_rv = 0, e_r = 0, e_rv_real = 0, e_rv_virtual = 0;
 };
 
 struct BlendedPixel {
@@ -31,75 +35,166 @@ struct RowCounts {
 };
 
 struct RealIrradiance {
-    glm::dvec3 sum{0};
+    Channels sum = 0;
     std::uint64_t pixels = 0;
 };
 
-glm::dvec3 value_at(const Image<Rgb>& image, std::size_t i) {
-    return image.empty() ? glm::dvec3(0) : glm::dvec3(image.pixels[i]);
+/// `yes` where `set`, else `no`.
+inline double choose(bool set, double yes, double no) { return set ? yes : no; }
+
+inline Channels choose(const Channels::mask_type& set, const Channels& yes, const Channels& no) {
+    Channels result = no;
+    where(set, result) = yes;
+    return result;
 }
 
-Terms terms_at(const Layers& layers, std::size_t i) {
-    const Irradiance& d = layers.direct;
-    const Irradiance& n = layers.indirect;
-    return {.m = layers.m.pixels[i],
-            .k_v = value_at(layers.k_v, i),
-            .s_rv = value_at(layers.s_rv, i),
-            .e_r = value_at(d.e_r, i) + value_at(n.e_r, i),
-            .e_rv_real = value_at(d.e_rv_real, i) + value_at(n.e_rv_real, i),
-            .e_rv_virtual = value_at(d.e_rv_virtual, i) + value_at(n.e_rv_virtual, i)};
+template <class Number>
+Number at_least_zero(const Number& x) {
+    return choose(x < 0.0, Number(0), x);
 }
 
-bool finite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+/// bounded_ratio() of one channel or of all. Where the quotient is not used, it is one by 1.
+template <class Number>
+Number ratio_of(const Number& e_r, const Number& e_rv, const Number& epsilon, double max_ratio) {
+    const Number numerator = at_least_zero(e_rv) + epsilon;
+    const Number denominator = at_least_zero(e_r) + epsilon;
+    const auto same = e_r == e_rv || numerator == denominator;
+    const auto bounded = numerator >= max_ratio * denominator;
+    const Number quotient = numerator / choose(same || bounded, Number(1), denominator);
+    return choose(same, Number(1), choose(bounded, Number(max_ratio), quotient));
 }
 
-bool finite(const Terms& t) {
-    return std::isfinite(t.m) && finite(t.k_v) && finite(t.s_rv) && finite(t.e_r) &&
-           finite(t.e_rv_real) && finite(t.e_rv_virtual);
+/// additive_change() of one channel or of all.
+template <class Number>
+Number change_of(const Number& camera, const Number& e_r, const Number& e_rv) {
+    const Number reflected = std::numbers::pi * camera;
+    const auto bounded = reflected >= e_r;
+    const Number most = choose(camera > 0.0, Number(1), Number(0));
+    const Number k = choose(bounded, most, reflected / choose(bounded, Number(1), e_r));
+    const Number changed = at_least_zero(camera + k / std::numbers::pi * (e_rv - e_r));
+    return choose(e_r == e_rv, camera, changed);
 }
+
+/// Loads with a mask: a fourth float would lie beyond the last pixel.
+Channels channels(const Rgb& color) {
+    using FourFloats = stdx::rebind_simd_t<float, Channels>;
+    const auto colored = FourFloats([](auto lane) { return float(lane); }) < 3;
+    FourFloats floats = 0;
+    where(colored, floats).copy_from(&color.r, stdx::element_aligned);
+    return stdx::static_simd_cast<Channels>(floats);
+}
+
+/// The pixels of a layer; one black pixel for all of those of an empty image.
+struct Plane {
+    const Rgb* pixels;
+    std::size_t step;
+
+    Channels at(std::size_t i) const { return channels(pixels[i * step]); }
+};
+
+Plane plane_of(const Image<Rgb>& image) {
+    static const Rgb black(0);
+    return image.empty() ? Plane{&black, 0} : Plane{image.pixels.data(), 1};
+}
+
+/// Direct and indirect irradiance.
+struct Sum {
+    Plane direct, indirect;
+
+    Channels at(std::size_t i) const { return direct.at(i) + indirect.at(i); }
+};
+
+/// Where the terms are read.
+struct Planes {
+    const Image<float>& m;
+    Plane k_v, s_rv;
+    Sum e_r, e_rv_real, e_rv_virtual;
+};
+
+Planes planes_of(const Layers& layers) {
+    const Irradiance &d = layers.direct, &n = layers.indirect;
+    return {.m = layers.m,
+            .k_v = plane_of(layers.k_v),
+            .s_rv = plane_of(layers.s_rv),
+            .e_r = {plane_of(d.e_r), plane_of(n.e_r)},
+            .e_rv_real = {plane_of(d.e_rv_real), plane_of(n.e_rv_real)},
+            .e_rv_virtual = {plane_of(d.e_rv_virtual), plane_of(n.e_rv_virtual)}};
+}
+
+inline Terms terms_at(const Planes& planes, std::size_t i) {
+    return {.m = planes.m.pixels[i],
+            .k_v = planes.k_v.at(i),
+            .s_rv = planes.s_rv.at(i),
+            .e_r = planes.e_r.at(i),
+            .e_rv_real = planes.e_rv_real.at(i),
+            .e_rv_virtual = planes.e_rv_virtual.at(i)};
+}
+
+inline bool finite(const Terms& t) {
+    return std::isfinite(t.m) && all_of(isfinite(t.k_v) && isfinite(t.s_rv) && isfinite(t.e_r) &&
+                                        isfinite(t.e_rv_real) && isfinite(t.e_rv_virtual));
+}
+
+bool unchanged(const Terms& t) { return all_of(t.e_r == t.e_rv_real); }
 
 /// Mean of E_R over the pixels in which virtual geometry changes it; 0 without any.
-glm::dvec3 mean_real_irradiance(const Layers& layers) {
-    std::vector<RealIrradiance> rows(std::size_t(layers.m.height));
-    parallel_rows(layers.m.height, [&](int y) {
-        RealIrradiance& row = rows[std::size_t(y)];
-        for (int x = 0; x < layers.m.width; ++x) {
-            const Terms t = terms_at(layers, layers.m.index(x, y));
-            if (!finite(t) || t.e_r == t.e_rv_real) continue;
+Channels mean_real_irradiance(const Planes& planes) {
+    std::vector<RealIrradiance> rows(std::size_t(planes.m.height));
+    parallel_rows(planes.m.height, [&](int y) {
+        RealIrradiance row;
+        for (int x = 0; x < planes.m.width; ++x) {
+            const Terms t = terms_at(planes, planes.m.index(x, y));
+            if (unchanged(t) || !finite(t)) continue;
             row.sum += t.e_r;
             ++row.pixels;
         }
+        rows[std::size_t(y)] = row;
     });
     RealIrradiance all;
     for (const RealIrradiance& row : rows) {
         all.sum += row.sum;
         all.pixels += row.pixels;
     }
-    return all.pixels == 0 ? glm::dvec3(0) : all.sum / double(all.pixels);
+    return all.pixels == 0 ? Channels(0) : all.sum / double(all.pixels);
 }
 
 /// The photograph's share of the pixel before it is weighted with M.
-double relit(double camera, double e_r, double e_rv, double epsilon, const BlendSettings& s) {
+Channels relit(const Channels& camera, const Terms& t, const Channels& epsilon,
+               const BlendSettings& s) {
     return s.form == BlendForm::additive
-               ? additive_change(camera, e_r, e_rv)
-               : camera * bounded_ratio(e_r, e_rv, epsilon, double(s.max_ratio));
+               ? change_of(camera, t.e_r, t.e_rv_real)
+               : camera * ratio_of(t.e_r, t.e_rv_real, epsilon, double(s.max_ratio));
 }
 
-BlendedPixel blend_pixel(const Rgb& camera, const Terms& t, const glm::dvec3& epsilon,
+BlendedPixel blend_pixel(const Rgb& camera, const Terms& t, const Channels& epsilon,
                          const BlendSettings& settings) {
     if (!finite(t)) return {camera, true, true};
     const double m = std::clamp(t.m, 0.0, 1.0);
-    if (m == 1 && t.e_r == t.e_rv_real) return {camera, true, false};
-    BlendedPixel result;
-    for (int c = 0; c < 3; ++c) {
-        const double real =
-            relit(double(camera[c]), t.e_r[c], t.e_rv_real[c], epsilon[c], settings);
-        const double value = (1 - m) * (t.k_v[c] * t.e_rv_virtual[c] + t.s_rv[c]) + m * real;
-        if (!(value <= double(std::numeric_limits<float>::max()))) return {camera, true, true};
-        result.linear[c] = float(std::max(value, 0.0));
+    if (m == 1 && unchanged(t)) return {camera, true, false};
+    const Channels real = relit(channels(camera), t, epsilon, settings);
+    const Channels value = (1 - m) * (t.k_v * t.e_rv_virtual + t.s_rv) + m * real;
+    if (!all_of(value <= double(std::numeric_limits<float>::max()))) return {camera, true, true};
+    const Channels linear = at_least_zero(value);
+    return {.linear = {float(linear[0]), float(linear[1]), float(linear[2])}};
+}
+
+/// Pixels of a row that are not as recorded.
+struct ChangedPixels {
+    std::vector<std::size_t> places;
+    std::vector<Rgb> seen;  // at the photograph's exposure
+};
+
+/// Writes them as bytes; how many differ from the recorded ones.
+std::uint64_t show(const ChangedPixels& changed, Image<EncodedRgb>& display) {
+    std::vector<EncodedRgb> bytes(changed.seen.size());
+    encode(changed.seen, bytes);
+    std::uint64_t different = 0;
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        EncodedRgb& shown = display.pixels[changed.places[i]];
+        different += shown != bytes[i] ? 1 : 0;
+        shown = bytes[i];
     }
-    return result;
+    return different;
 }
 
 template <class Pixel>
@@ -143,40 +238,36 @@ void validate(const BlendSettings& s) {
 }
 
 double bounded_ratio(double e_r, double e_rv, double epsilon, double max_ratio) {
-    const double numerator = std::max(e_rv, 0.0) + epsilon;
-    const double denominator = std::max(e_r, 0.0) + epsilon;
-    if (e_r == e_rv || numerator == denominator) return 1;
-    if (numerator >= max_ratio * denominator) return max_ratio;
-    return numerator / denominator;
+    return ratio_of(e_r, e_rv, epsilon, max_ratio);
 }
 
 double additive_change(double camera, double e_r, double e_rv) {
-    if (e_r == e_rv) return camera;
-    const double reflected = std::numbers::pi * camera;
-    const double k = reflected >= e_r ? (camera > 0 ? 1.0 : 0.0) : reflected / e_r;
-    return std::max(camera + k / std::numbers::pi * (e_rv - e_r), 0.0);
+    return change_of(camera, e_r, e_rv);
 }
 
 Composite composite(const Photo& photo, const Layers& layers, const BlendSettings& settings) {
     validate(settings);
     check_sizes(photo, layers);
-    const glm::dvec3 epsilon = double(settings.epsilon_share) * mean_real_irradiance(layers);
+    const Planes planes = planes_of(layers);
+    const Channels epsilon = double(settings.epsilon_share) * mean_real_irradiance(planes);
     Composite result{.display = photo.encoded, .linear = photo.linear};
     std::vector<RowCounts> rows(std::size_t(photo.linear.height));
     parallel_rows(photo.linear.height, [&](int y) {
         RowCounts& row = rows[std::size_t(y)];
+        ChangedPixels changed;
         for (int x = 0; x < photo.linear.width; ++x) {
             const std::size_t i = photo.linear.index(x, y);
-            const Terms terms = terms_at(layers, i);
+            const Terms terms = terms_at(planes, i);
             const BlendedPixel pixel =
                 blend_pixel(photo.linear.pixels[i], terms, epsilon, settings);
             row.replaced += pixel.replaced ? 1 : 0;
             row.virtual_pixels += !std::isnan(terms.m) && terms.m < 1 ? 1 : 0;
             if (pixel.as_recorded) continue;
             result.linear.pixels[i] = pixel.linear;
-            result.display.pixels[i] = encode(pixel.linear * photo.exposure);
-            row.influenced += result.display.pixels[i] != photo.encoded.pixels[i] ? 1 : 0;
+            changed.places.push_back(i);
+            changed.seen.push_back(pixel.linear * photo.exposure);
         }
+        row.influenced = show(changed, result.display);
     });
     add_counts(result, rows);
     return result;

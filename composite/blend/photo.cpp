@@ -5,11 +5,7 @@
 namespace inlay {
 
 Photo linearise(Image<EncodedRgb> color, const Rgb& exposure) {
-    Image<Rgb> linear = decode(color);
-    if (exposure != Rgb(1)) {
-        for (Rgb& pixel : linear.pixels)
-            pixel /= exposure;
-    }
+    Image<Rgb> linear = decode(color, exposure);
     return {std::move(color), std::move(linear), exposure};
 }
 

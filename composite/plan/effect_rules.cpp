@@ -10,14 +10,21 @@ namespace {
 const char* lost = "the camera's pose is not known";
 const char* empty = "the scene has no virtual object";
 
+std::string objects_text(int count) {
+    return fmt::format("{} virtual object{}", count, count == 1 ? "" : "s");
+}
+
 /// What keeps a frame from being simulated at all; empty: nothing does.
 std::string hindrance(const SceneFacts& facts) {
     if (!facts.tracked) return lost;
-    return facts.objects.empty() ? empty : "";
-}
-
-std::string objects_text(int count) {
-    return fmt::format("{} virtual object{}", count, count == 1 ? "" : "s");
+    if (facts.objects.empty()) return empty;
+    if (!out_of_reach(facts)) return "";
+    const int all = int(facts.objects.size());
+    return fmt::format(
+        "{} out of view change{} the light on what is seen by at most {:.2g} of its mean; less "
+        "than "
+        "{:.2g} moves no byte of a surface that gets {:.2g} of it or more",
+        objects_text(all), all == 1 ? "s" : "", light_change(facts), unseen_change, least_light);
 }
 
 Verdict decide_direct(const PlanInput& in) {

@@ -40,9 +40,10 @@ std::string object_text(const ObjectFacts& o) {
     std::string text = "object " + o.name + ": " + (o.glossy ? "glossy" : "diffuse");
     if (o.textured) text += ", textured";
     if (o.in_view) return text + ", may be in view, " + size_text(o.cover) + "\n";
-    return text +
-           (o.cover.possible ? ", too small to be seen, " + size_text(o.cover) : ", out of view") +
-           "\n";
+    text += o.cover.possible ? ", too small to be seen, " + size_text(o.cover) : ", out of view";
+    if (o.light_change < 1)
+        text += fmt::format(", may change up to {:.2g} of the mean light", o.light_change);
+    return text + "\n";
 }
 
 std::string effect_text(const PlannedEffect& e) {
@@ -50,9 +51,7 @@ std::string effect_text(const PlannedEffect& e) {
     if (e.asked) text += "not built, so that the scene is refused: ";
     if (!e.built && !e.asked) text += "not built; ";
     text += e.reason + "\n";
-    if (e.in)
-        text +=
-            "       costs " + cost_text(e.cost) + " per pixel; worth: " + e.worth + "\n";
+    if (e.in) text += "       costs " + cost_text(e.cost) + " per pixel; worth: " + e.worth + "\n";
     return text;
 }
 

@@ -44,20 +44,6 @@ Corners corners_of(const ObjectBounds& bounds, const glm::dmat4& camera_from_obj
     return corners;
 }
 
-struct Ball {
-    glm::dvec3 centre;
-    double radius;
-};
-
-Ball ball_of(const ObjectBounds& bounds, const glm::dmat4& camera_from_object) {
-    const glm::dmat3 linear(camera_from_object);
-    const double scale =
-        std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
-    const glm::dvec3 centre(camera_from_object * glm::dvec4(bounds.middle(), 1));
-    // Far from the origin, single precision moves a point by its share of the distance.
-    return {centre, (1 + margin) * scale * bounds.radius + 1e-6 * glm::length(centre)};
-}
-
 /// Whether a plane through the camera leaves the whole object on the side that is not seen.
 bool outside(const Corners& corners, const Ball& ball, const ViewWindow& w) {
     const std::array<glm::dvec3, 5> inward{
@@ -100,6 +86,15 @@ Rectangle image_of(const Ball& ball) {
 }
 
 }  // namespace
+
+Ball ball_of(const ObjectBounds& bounds, const glm::dmat4& camera_from_object) {
+    const glm::dmat3 linear(camera_from_object);
+    const double scale =
+        std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
+    const glm::dvec3 centre(camera_from_object * glm::dvec4(bounds.middle(), 1));
+    // Far from the origin, single precision moves a point by its share of the distance.
+    return {centre, (1 + margin) * scale * bounds.radius + 1e-6 * glm::length(centre)};
+}
 
 ViewWindow view_window(const Lens& lens) {
     ViewWindow window{glm::dvec2(std::numeric_limits<double>::infinity()),

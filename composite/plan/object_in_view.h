@@ -18,6 +18,16 @@ struct ViewWindow {
 /// pixel by pixel.
 ViewWindow view_window(const Lens& lens);
 
+/// A ball that holds an object, in the camera's frame.
+struct Ball {
+    glm::dvec3 centre{0.0};  // m
+    double radius = 0;       // m
+};
+
+/// Around the bounds of an object that is placed by `camera_from_object`, with a margin for the
+/// tracer's single precision.
+Ball ball_of(const ObjectBounds& bounds, const glm::dmat4& camera_from_object);
+
 /// What an object covers of the image at most. Conservative: it covers no more than this.
 struct ObjectInView {
     bool possible = false;      // whether a camera ray may meet it; surfaces in front are ignored

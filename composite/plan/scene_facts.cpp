@@ -45,6 +45,8 @@ bool virtual_objects_moved(const VirtualScene& scene, double time, double time_b
 SceneFacts gather_facts(const SceneInFrame& frame) {
     const ViewWindow window = view_window(frame.lens);
     const glm::dmat4 camera_from_world = to_matrix(inverse(frame.world_from_camera));
+    const SeenSpace seen{window, frame.farthest, frame.offset};
+    const double brightest = contrast(frame.light, frame.exposure);
     SceneFacts facts;
     facts.lit = frame.lit;
     facts.moving = virtual_objects_moved(frame.scene, frame.time, frame.time_before);
@@ -52,9 +54,11 @@ SceneFacts gather_facts(const SceneInFrame& frame) {
         const SceneObject& object = frame.scene.objects[i];
         if (object.real || frame.bounds[i].empty()) continue;
         ObjectFacts measured = facts_of(object);
-        measured.cover = object_in_view(
-            frame.bounds[i], camera_from_world * transform_at(object, frame.time), window);
+        const glm::dmat4 camera_from_object = camera_from_world * transform_at(object, frame.time);
+        measured.cover = object_in_view(frame.bounds[i], camera_from_object, window);
         measured.in_view = measured.cover.possible && large_enough(measured.cover);
+        measured.light_change =
+            light_change(ball_of(frame.bounds[i], camera_from_object), seen, brightest);
         facts.objects.push_back(std::move(measured));
     }
     return facts;
@@ -70,6 +74,18 @@ int glossy_objects(const SceneFacts& facts) {
 
 int glossy_objects_in_view(const SceneFacts& facts) {
     return count(facts, [](const ObjectFacts& o) { return o.glossy && o.in_view; });
+}
+
+double light_change(const SceneFacts& facts) {
+    double sum = 0;
+    for (const ObjectFacts& o : facts.objects)
+        sum += o.light_change;
+    return sum;
+}
+
+bool out_of_reach(const SceneFacts& facts) {
+    return !facts.objects.empty() && objects_in_view(facts) == 0 &&
+           light_change(facts) < unseen_change;
 }
 
 }  // namespace inlay

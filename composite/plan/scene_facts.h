@@ -1,12 +1,14 @@
 // SceneFacts: what a frame of a scene holds that decides what has to be simulated.
 #pragma once
 
+#include "composite/plan/light_reach.h"
 #include "composite/plan/object_in_view.h"
 #include "recordings/base/lens.h"
 #include "recordings/base/pose.h"
 #include "render/scene/scene_requests.h"
 #include "render/scene/virtual_scene.h"
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -22,6 +24,8 @@ struct ObjectFacts {
     bool in_view = false;  // possible, and large enough to be seen
     bool glossy = false, textured = false;
     ObjectInView cover;
+    // By which share of its mean it changes the light on what is seen, at most.
+    double light_change = std::numeric_limits<double>::infinity();
 };
 
 /// What the rules look at.
@@ -42,6 +46,10 @@ struct SceneInFrame {
     const Pose& world_from_camera;
     double time = 0, time_before = 0;  // s, of this frame and of the one before it
     bool lit = false;                  // the environment sends light
+    LightRange light{};                // of the environment
+    Rgb exposure{1};                   // of the photograph, relative to the reference
+    // No real surface that is seen lies farther (m, along z), and rays start so far off it (m).
+    double farthest = std::numeric_limits<double>::infinity(), offset = 0;
 };
 
 /// Measures the virtual objects; `tracked`, `first_frame` and `requests` are left to the caller.
@@ -57,5 +65,11 @@ bool is_glossy(const Material& material);
 int objects_in_view(const SceneFacts& facts);
 int glossy_objects(const SceneFacts& facts);
 int glossy_objects_in_view(const SceneFacts& facts);
+
+/// By which share of its mean all of them together change the light on what is seen, at most.
+double light_change(const SceneFacts& facts);
+
+/// Whether there are virtual objects, none of them in view, and what they change moves no byte.
+bool out_of_reach(const SceneFacts& facts);
 
 }  // namespace inlay

@@ -8,6 +8,7 @@
 #include "slam/mapping/see_model.h"
 #include "slam/mesh/extract_mesh.h"
 
+#include <algorithm>
 #include <bit>
 #include <utility>
 
@@ -108,6 +109,15 @@ SlamStep known_frame_of(const Reconstruction& known, const RgbdFrame& frame,
     SlamStep step = known_view_of(known, frame);
     step.surface = known_surface_of(known, frame, step, settings);
     return step;
+}
+
+double farthest_seen(const Settings& settings) {
+    const float tilt =
+        std::max(settings.geometry.screen.largest_tilt, ScreenTracerSettings{}.largest_tilt);
+    // Edges follow a plane twice; camera rays meet it tilted.
+    const double followed = 1 + double(steepest_plane);
+    return followed * followed * (1 + double(tilt)) *
+           double(std::max(settings.slam.raycast.farthest, settings.slam.depth.farthest));
 }
 
 int model_due(int frames_seen, int interval) {

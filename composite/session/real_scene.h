@@ -28,6 +28,9 @@ SurfaceMap known_surface_of(const Reconstruction& known, const RgbdFrame& frame,
 SlamStep known_frame_of(const Reconstruction& known, const RgbdFrame& frame,
                         const Settings& settings);
 
+/// No surface of these that a camera ray meets lies farther (m, along z).
+double farthest_seen(const Settings& settings);
+
 /// Keeps what its RealGeometry refers to; movable, since all of it lies behind pointers.
 struct RealScene {
     std::shared_ptr<const SurfaceMap> surface;

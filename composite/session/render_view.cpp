@@ -7,7 +7,9 @@
 #include "render/trace/picture.h"
 #include "render/trace/sample_pass.h"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace inlay {
 namespace {
@@ -35,12 +37,29 @@ void sample(const SceneView& view, const EmbreeScene& real_objects,
     out.noisy = std::make_shared<const NoisyLayers>(std::move(sampled.layers));
 }
 
+/// How far along z (m) the real objects reach.
+double farthest_real(const SceneView& view, const std::vector<ObjectBounds>& bounds) {
+    const glm::dmat4 camera_from_world = to_matrix(inverse(view.world_from_camera));
+    double farthest = 0;
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+        const SceneObject& object = view.scene.objects[i];
+        if (!object.real || bounds[i].empty()) continue;
+        const Ball ball = ball_of(bounds[i], camera_from_world * transform_at(object, view.time));
+        farthest = std::max(farthest, ball.centre.z + ball.radius);
+    }
+    return farthest;
+}
+
 }  // namespace
 
 SceneFacts facts_of_view(const SceneView& view) {
-    SceneFacts facts =
-        gather_facts({view.scene, bounds_of(view.scene), view.lens, view.world_from_camera,
-                      view.time, view.time, view.environment.mean_luminance > 0});
+    const std::vector<ObjectBounds> bounds = bounds_of(view.scene);
+    SceneInFrame in{view.scene, bounds, view.lens, view.world_from_camera, view.time, view.time};
+    in.lit = view.environment.mean_luminance > 0;
+    in.light = light_range(view.environment.map);
+    in.farthest = farthest_real(view, bounds);
+    in.offset = double(surface_offset);
+    SceneFacts facts = gather_facts(in);
     facts.first_frame = true;
     return facts;
 }

@@ -32,6 +32,19 @@ const VoxelVolume& volume_of(const Session& session) {
     return session.known ? session.known->volume : session.slam.volume;
 }
 
+SceneInFrame in_frame(const Session& session, const SlamStep& view, double time,
+                      double time_before) {
+    SceneInFrame in{
+        session.scene, session.bounds, view.surface.lens, view.tracking.world_from_camera,
+        time,          time_before};
+    in.exposure = view.gain;
+    in.lit = session.environment.mean_luminance > 0;
+    in.light = session.light;
+    in.farthest = farthest_seen(session.settings);
+    in.offset = double(session.settings.geometry.offset);
+    return in;
+}
+
 Session start_session(const Settings& settings, VirtualScene scene, EnvironmentMap environment,
                       std::shared_ptr<const Reconstruction> known) {
     validate(settings);
@@ -41,6 +54,7 @@ Session start_session(const Settings& settings, VirtualScene scene, EnvironmentM
     session.bounds = bounds_of(session.scene);
     if (settings.filter.enabled)
         session.environment_bandwidth = environment_bandwidth(environment.radiance);
+    session.light = light_range(environment);
     session.environment = make_environment_sampler(std::move(environment));
     session.no_light = no_light();
     session.slam = start_slam(settings.slam);
@@ -48,14 +62,32 @@ Session start_session(const Settings& settings, VirtualScene scene, EnvironmentM
     return session;
 }
 
+namespace {
+
+/// E_R as it is known of the finished model; null where it is not kept: a model that still grows is
+/// made anew too often.
+ModelLight* kept_light(Session& session, const RealScene& real, const EnvironmentSampler& light) {
+    const Settings& settings = session.settings;
+    if (!session.known || settings.geometry.kind != RealGeometryKind::model) return nullptr;
+    return keep_model_light(session.model_light, real.mesh, light, settings.trace,
+                            settings.geometry.offset);
+}
+
+}  // namespace
+
 TwoModeResult sample(Session& session, const RealScene& real, const RgbdFrame& frame,
                      const EffectPlan& plan, const SamplingSettings& settings,
                      const LightDemand& demand) {
     const EmbreeScene objects =
         session.virtual_structures.place(session.scene, frame.time, /*real=*/false);
     const bool lit = plan.has("environment_direct");
-    const TwoModeScene scene{real.surface->lens, real.surface->world_from_camera, real.geometry,
-                             objects, lit ? session.environment : session.no_light};
+    const EnvironmentSampler& light = lit ? session.environment : session.no_light;
+    const TwoModeScene scene{real.surface->lens,
+                             real.surface->world_from_camera,
+                             real.geometry,
+                             objects,
+                             light,
+                             kept_light(session, real, light)};
     return sample_two_modes(scene, planned_sampling(plan, settings), std::uint32_t(frame.index),
                             demand);
 }
@@ -76,9 +108,7 @@ OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work) {
     const std::shared_ptr<const NoisyLayers> previous = std::exchange(session.previous, nullptr);
     if (work == FrameWork::track) return out;
 
-    SceneFacts facts = gather_facts({session.scene, session.bounds, slam.surface.lens,
-                                     slam.tracking.world_from_camera, frame.time,
-                                     session.time_before, session.environment.mean_luminance > 0});
+    SceneFacts facts = gather_facts(in_frame(session, slam, frame.time, session.time_before));
     session.time_before = frame.time;
     facts.tracked = slam.tracking.status != TrackingStatus::lost;
     facts.first_frame = !previous;
@@ -95,6 +125,7 @@ OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work) {
         TwoModeResult sampled = sample(session, *out.real, frame, out.plan, settings.trace,
                                        demand_of(settings, previous.get()));
         out.rays = sampled.rays;
+        out.gathered_rays = sampled.gathering.real_shadow + sampled.gathering.real_indirect;
         out.dropped_samples = sampled.layers.dropped_samples;
         session.previous = std::make_shared<const NoisyLayers>(std::move(sampled.layers));
         out.ms.trace = watch.lap();

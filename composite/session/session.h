@@ -9,6 +9,7 @@
 #include "recordings/base/rgbd_frame.h"
 #include "render/sample/environment_sampler.h"
 #include "render/scene/virtual_scene.h"
+#include "render/trace/model_light.h"
 
 #include <memory>
 
@@ -19,12 +20,14 @@ struct Session {
     VirtualScene scene;                // objects where they stand, in the recording's world
     std::vector<ObjectBounds> bounds;  // of the scene's objects, in their order
     EnvironmentSampler environment;
+    LightRange light;                  // of the environment
     EnvironmentSampler no_light;       // in its place where the plan has no direct light
     double environment_bandwidth = 0;  // B_e, 1/rad; 0 without the filter
 
     std::shared_ptr<const Reconstruction> known;  // of the recording; null: tracked as frames come
     SlamState slam;                               // without it
     TracedModel model;
+    std::unique_ptr<ModelLight> model_light;  // E_R of the model, as far as frames asked for it
     EmbreeSceneCache virtual_structures;
     std::shared_ptr<const NoisyLayers> previous;  // of the frame before, if it was sampled
     double time_before = 0;                       // s, of `previous`
@@ -39,6 +42,11 @@ Session start_session(const Settings& settings, VirtualScene scene, EnvironmentM
 
 /// The model that frames are composited on.
 const VoxelVolume& volume_of(const Session& session);
+
+/// What a plan looks at: the scene at `time` (s), with `time_before` that of the frame before, from
+/// where `view` has its lens and its pose, and with its gain. References must outlive the result.
+SceneInFrame in_frame(const Session& session, const SlamStep& view, double time,
+                      double time_before);
 
 /// How many frames the model of the next one has seen; a finished model does not grow.
 inline int model_age(const Session& session) { return session.known ? 0 : session.frames_seen; }
@@ -58,6 +66,7 @@ struct OutputFrame {
     Image<Rgb> camera;  // the photograph, linear, at the reference exposure
     Rgb exposure{1};    // of the photograph, relative to that
     RayCounts rays;
+    std::uint64_t gathered_rays = 0;    // for E_R on the model, in the first frame that asks for it
     std::uint64_t dropped_samples = 0;  // non-finite ones, left out of every mean
     StageTimes ms;
 };

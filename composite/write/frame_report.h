@@ -44,6 +44,9 @@ struct FrameReport {
                                // channel; in the line only where it is not 1
     StageTimes ms{};
     RayCounts rays{};
+    std::uint64_t gathered_rays = 0;  // more of them, for light that later frames find there: like
+                                      // times, they depend on which frames were asked for; in the
+                                      // line only where there are any
     PixelCounts pixels{};
     std::uint64_t dropped_samples = 0;  // not finite, left out of every mean
     std::uint64_t replaced_pixels = 0;  // a term was not finite: the photograph stands in

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <span>
 
 namespace inlay {
 
@@ -24,11 +25,14 @@ Rgb decode(EncodedRgb encoded);
 /// The sRGB transfer curve, rounded to the nearest byte; clamps to 0..1, NaN becomes 0.
 /// encode(decode(x)) == x for every byte.
 EncodedRgb encode(const Rgb& linear);
+/// The same for many pixels, which is faster; `encoded` is as long as `linear`.
+void encode(std::span<const Rgb> linear, std::span<EncodedRgb> encoded);
 
 /// Byte from which on a channel of a photograph may have been brighter than it says.
 constexpr int clipped_byte = 250;
 
-Image<Rgb> decode(const Image<EncodedRgb>& encoded);
+/// Decodes every pixel and divides it by `exposure` (> 0).
+Image<Rgb> decode(const Image<EncodedRgb>& encoded, const Rgb& exposure = Rgb(1));
 Image<EncodedRgb> encode(const Image<Rgb>& linear);
 
 /// Rec. 709 luminance.

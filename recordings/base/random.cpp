@@ -1,5 +1,7 @@
 #include "recordings/base/random.h"
 
+#include <bit>
+
 namespace inlay {
 namespace {
 
@@ -34,21 +36,47 @@ std::uint32_t reversed_sobol_second(std::uint32_t x) {
 
 float to_unit(std::uint32_t bits) { return float(bits >> 8) * 0x1p-24f; }
 
+/// The bits of a 16-bit number, each followed by a 0.
+std::uint32_t spread_bits(std::uint32_t x) {
+    x = (x | (x << 8)) & 0x00ff00ffU;
+    x = (x | (x << 4)) & 0x0f0f0f0fU;
+    x = (x | (x << 2)) & 0x33333333U;
+    return (x | (x << 1)) & 0x55555555U;
+}
+
 }  // namespace
+
+std::uint32_t shuffle_nested(std::uint32_t index, std::uint32_t seed) {
+    return reverse_bits(permute_upwards(reverse_bits(index), seed));
+}
+
+std::uint32_t place_along_curve(std::uint32_t x, std::uint32_t y) {
+    return spread_bits(x) | (spread_bits(y) << 1);
+}
 
 StratifiedSet stratified_set(const SampleKey& k, std::uint32_t dimension) {
     const std::uint32_t set = hash(hash(hash(hash(k.seed), k.frame), k.pixel), dimension);
-    return {hash(set, 1), hash(set, 2), hash(set, 3)};
+    return {hash(set, 1), hash(set, 2), hash(set, 3), 0};
 }
 
 glm::vec2 StratifiedSet::at(std::uint32_t index) const {
-    const std::uint32_t shuffled = reverse_bits(permute_upwards(reverse_bits(index), order));
+    const std::uint32_t shuffled = shuffle_nested(first + index, order);
     return {to_unit(reverse_bits(permute_upwards(shuffled, scramble_x))),
             to_unit(reverse_bits(permute_upwards(reversed_sobol_second(shuffled), scramble_y)))};
 }
 
 glm::vec2 stratified_pair(const SampleKey& k, std::uint32_t dimension) {
     return stratified_set(k, dimension).at(k.sample);
+}
+
+StratifiedSet shared_set(const SampleKey& k, std::uint32_t dimension, int per_pixel) {
+    StratifiedSet set = stratified_set({k.seed, k.frame, 0, 0, 0}, dimension);
+    set.first = k.place * std::bit_ceil(std::uint32_t(per_pixel));
+    return set;
+}
+
+glm::vec2 shared_pair(const SampleKey& k, std::uint32_t dimension, int per_pixel) {
+    return shared_set(k, dimension, per_pixel).at(k.sample);
 }
 
 }  // namespace inlay

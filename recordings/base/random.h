@@ -10,6 +10,7 @@ namespace inlay {
 
 struct SampleKey {
     std::uint32_t seed = 1, frame = 0, pixel = 0, sample = 0;
+    std::uint32_t place = 0;  // of the pixel along a curve that keeps neighbors together
 };
 
 /// Mixes the bits of a 32-bit word (Wellons's "lowbias32" constants, 2018).
@@ -33,11 +34,21 @@ inline float uniform(const SampleKey& k, std::uint32_t dimension) {
     return float(bits >> 8) * 0x1p-24f;
 }
 
-/// Points of the unit square, one for each index 0, 1, 2, ..., of which every run from the start is
-/// well spread: the first two Sobol dimensions, Owen-scrambled by hashing (Laine and Karras 2011;
-/// Burley 2020).
+/// A random permutation of all words that keeps aligned blocks of 2^k together, whatever k: each
+/// bit depends on the bits above it alone (Owen's nested scrambling by a hash: Laine and Karras
+/// 2011; Burley 2020).
+std::uint32_t shuffle_nested(std::uint32_t index, std::uint32_t seed);
+
+/// Where a pixel (coordinates below 65536) lies along the Z-curve: the bits of both in turn (Morton
+/// 1966). Aligned squares of 2^k x 2^k pixels lie together.
+std::uint32_t place_along_curve(std::uint32_t x, std::uint32_t y);
+
+/// Points of the unit square, one for each index 0, 1, 2, ..., of which every run from the start,
+/// and every aligned run of 2^k, is well spread: the first two Sobol dimensions, Owen-scrambled by
+/// hashing.
 struct StratifiedSet {
     std::uint32_t order = 0, scramble_x = 0, scramble_y = 0;  // seeds
+    std::uint32_t first = 0;                                  // index 0 of the run at hand
 
     glm::vec2 at(std::uint32_t index) const;
 };
@@ -48,5 +59,15 @@ StratifiedSet stratified_set(const SampleKey& k, std::uint32_t dimension);
 
 /// Point `k.sample` of its pixel's set.
 glm::vec2 stratified_pair(const SampleKey& k, std::uint32_t dimension);
+
+/// The run of a pixel in the one set of its frame: `per_pixel` points, rounded up to a power of
+/// two; beyond them the next pixel's follow, and beyond 2^32 in all the first ones again. Runs
+/// follow each other along the Z-curve, so that the samples of neighbors are spread together as
+/// well, and a filter takes more of their error away than of independent ones (Ahmed and Wonka
+/// 2020).
+StratifiedSet shared_set(const SampleKey& k, std::uint32_t dimension, int per_pixel);
+
+/// Point `k.sample` of its pixel's run.
+glm::vec2 shared_pair(const SampleKey& k, std::uint32_t dimension, int per_pixel);
 
 }  // namespace inlay

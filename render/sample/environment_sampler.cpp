@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -22,6 +23,26 @@ void check_texels(const Image<Rgb>& map) {
                               std::to_string(y) + "): radiance must be finite and not negative");
         }
     }
+}
+
+/// FNV-1a over the words of `count` values.
+template <class Value>
+std::uint64_t fingerprint_of(const Value* values, std::size_t count, std::uint64_t start) {
+    static_assert(sizeof(Value) % sizeof(std::uint32_t) == 0);
+    const auto* bytes = reinterpret_cast<const std::byte*>(values);
+    for (std::size_t at = 0; at < count * sizeof(Value); at += sizeof(std::uint32_t)) {
+        std::uint32_t word = 0;
+        std::memcpy(&word, bytes + at, sizeof(word));
+        start = (start ^ word) * 0x100000001b3U;
+    }
+    return start;
+}
+
+std::uint64_t fingerprint_of(const EnvironmentMap& map) {
+    constexpr std::uint64_t basis = 0xcbf29ce484222325U;
+    const std::uint64_t turned =
+        fingerprint_of(&map.world_from_environment, 1, basis ^ std::uint64_t(map.radiance.width));
+    return fingerprint_of(map.radiance.pixels.data(), map.radiance.pixels.size(), turned);
 }
 
 }  // namespace
@@ -45,6 +66,7 @@ EnvironmentSampler make_environment_sampler(EnvironmentMap map) {
     for (int y = 0; y <= radiance.height; ++y)
         sampler.row_cosines.push_back(std::cos(std::numbers::pi * y / radiance.height));
     if (!black) sampler.mean_luminance = float(sampler.rows.total / (4 * std::numbers::pi));
+    sampler.fingerprint = fingerprint_of(map);
     sampler.map = std::move(map);
     return sampler;
 }
@@ -62,6 +84,7 @@ EnvironmentSampler make_light_list(EnvironmentMap map, int length, std::uint32_t
         list.push_back(sample_environment(
             sampler, {std::min(float(first), std::nextafter(1.0f, 0.0f)), uniform(key, 1)}));
     }
+    sampler.fingerprint = fingerprint_of(list.data(), list.size(), sampler.fingerprint);
     sampler.list = std::move(list);
     return sampler;
 }

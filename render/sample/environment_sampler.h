@@ -26,6 +26,7 @@ struct EnvironmentSampler {
     std::vector<double> row_cosines;    // of the polar angles between rows, height + 1 of them
     float mean_luminance = 0;           // over the sphere
     std::vector<LightSample> list;      // the only samples there are; empty: drawn from the tables
+    std::uint64_t fingerprint = 0;      // of map and list: another light has another
 };
 
 /// Throws Error for an empty map or for texels that are not finite and >= 0. A black map is sampled

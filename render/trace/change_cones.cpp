@@ -20,12 +20,12 @@ constexpr float rounding_margin = 1 + 1e-4f;
 constexpr float no_distance = 1e-30f;
 
 /// As many cones as the processor works on at once.
-using Lanes = Eigen::Array<float, 8, 1>;
-constexpr std::size_t lanes = Lanes::RowsAtCompileTime;
+using Eight = Eigen::Array<float, 8, 1>;
+constexpr std::size_t lanes = Eight::RowsAtCompileTime;
 static_assert(most_change_cones % lanes == 0);
 
-Eigen::Map<Lanes> lanes_at(float* plane) { return Eigen::Map<Lanes>(plane); }
-Eigen::Map<const Lanes> lanes_at(const float* plane) { return Eigen::Map<const Lanes>(plane); }
+Eigen::Map<Eight> lanes_at(float* plane) { return Eigen::Map<Eight>(plane); }
+Eigen::Map<const Eight> lanes_at(const float* plane) { return Eigen::Map<const Eight>(plane); }
 
 /// Spheres as a point sees them, in planes.
 struct SeenSpheres {
@@ -46,16 +46,16 @@ void look_at(std::span<const BoundingSphere> spheres, const glm::vec3& position,
         seen.radius[i] = sphere.radius * rounding_margin;
     }
     for (std::size_t i = 0; i < spheres.size(); i += lanes) {
-        const Lanes x = lanes_at(&seen.axis_x[i]), y = lanes_at(&seen.axis_y[i]),
+        const Eight x = lanes_at(&seen.axis_x[i]), y = lanes_at(&seen.axis_y[i]),
                     z = lanes_at(&seen.axis_z[i]), radius = lanes_at(&seen.radius[i]);
-        const Lanes above = normal.x * x + normal.y * y + normal.z * z;
-        const Lanes distance = (x * x + y * y + z * z).sqrt();
-        const Lanes divisor = distance.max(no_distance);
-        const Lanes sine = radius / divisor.max(radius);
-        const Lanes height = sine * sine / (1 + ((1 - sine) * (1 + sine)).sqrt());
+        const Eight above = normal.x * x + normal.y * y + normal.z * z;
+        const Eight distance = (x * x + y * y + z * z).sqrt();
+        const Eight divisor = distance.max(no_distance);
+        const Eight sine = radius / divisor.max(radius);
+        const Eight height = sine * sine / (1 + ((1 - sine) * (1 + sine)).sqrt());
         // Largest cosine within a cone, whose half angle is below 90 degrees, from its axis's.
-        const Lanes c = above / divisor, inner = 1 - height;
-        const Lanes apart = (1 - c * c).max(0.0f).sqrt() * (1 - inner * inner).max(0.0f).sqrt();
+        const Eight c = above / divisor, inner = 1 - height;
+        const Eight apart = (1 - c * c).max(0.0f).sqrt() * (1 - inner * inner).max(0.0f).sqrt();
         lanes_at(&seen.axis_x[i]) = x / divisor;
         lanes_at(&seen.axis_y[i]) = y / divisor;
         lanes_at(&seen.axis_z[i]) = z / divisor;
@@ -63,7 +63,7 @@ void look_at(std::span<const BoundingSphere> spheres, const glm::vec3& position,
         lanes_at(&seen.above[i]) = above;
         lanes_at(&seen.height[i]) = height;
         lanes_at(&seen.cosine[i]) =
-            (c >= inner).select(Lanes::Ones(), (c * inner + apart).max(0.0f));
+            (c >= inner).select(Eight::Ones(), (c * inner + apart).max(0.0f));
     }
 }
 
@@ -80,17 +80,17 @@ void enclose(ChangeCones& cones) {
     const float length = glm::length(cones.middle);
     if (!(length > 0.1f)) return;  // they stand all around
     cones.middle /= length;
-    Lanes least = Lanes::Ones();  // cosine of the angle to the far side of a cone
+    Eight least = Eight::Ones();  // cosine of the angle to the far side of a cone
     for (std::size_t i = 0; i < count; i += lanes) {
-        const Lanes height = lanes_at(&cones.height[i]), down = height.max(0.0f);
-        const Lanes x = cones.middle.x - lanes_at(&cones.axis_x[i]),
+        const Eight height = lanes_at(&cones.height[i]), down = height.max(0.0f);
+        const Eight x = cones.middle.x - lanes_at(&cones.axis_x[i]),
                     y = cones.middle.y - lanes_at(&cones.axis_y[i]),
                     z = cones.middle.z - lanes_at(&cones.axis_z[i]);
-        const Lanes square = x * x + y * y + z * z;  // of the chord: exact for small angles
-        const Lanes to_axis = 1 - 0.5f * square;
-        const Lanes sine = (square * (1 - 0.25f * square)).max(0.0f).sqrt();
-        const Lanes far_side = to_axis * (1 - down) - sine * (down * (2 - down)).sqrt();
-        const Lanes cosine = (to_axis > 0.0f).select(far_side, -Lanes::Ones());
+        const Eight square = x * x + y * y + z * z;  // of the chord: exact for small angles
+        const Eight to_axis = 1 - 0.5f * square;
+        const Eight sine = (square * (1 - 0.25f * square)).max(0.0f).sqrt();
+        const Eight far_side = to_axis * (1 - down) - sine * (down * (2 - down)).sqrt();
+        const Eight cosine = (to_axis > 0.0f).select(far_side, -Eight::Ones());
         least = (height >= 0.0f).select(least.min(cosine), least);
     }
     const float furthest = least.minCoeff();
@@ -163,14 +163,14 @@ DirectionSample sample_cones(const ChangeCones& cones, glm::vec2 u) {
 }
 
 float pdf_cones(const ChangeCones& cones, const glm::vec3& direction) {
-    Lanes sum = Lanes::Zero();
+    Eight sum = Eight::Zero();
     for (std::size_t i = 0; i < std::size_t(cones.count); i += lanes) {
-        const Lanes x = direction.x - lanes_at(&cones.axis_x[i]),
+        const Eight x = direction.x - lanes_at(&cones.axis_x[i]),
                     y = direction.y - lanes_at(&cones.axis_y[i]),
                     z = direction.z - lanes_at(&cones.axis_z[i]);
         // 1 - cosine as half the squared distance of unit vectors: exact for narrow cones
         const auto within = 0.5f * (x * x + y * y + z * z) <= lanes_at(&cones.height[i]);
-        sum += within.select(lanes_at(&cones.density[i]), Lanes::Zero());
+        sum += within.select(lanes_at(&cones.density[i]), Eight::Zero());
     }
     return sum.sum() + cones.hemisphere * std::max(0.0f, glm::dot(cones.normal, direction)) / pi;
 }

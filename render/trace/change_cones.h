@@ -2,6 +2,7 @@
 // else can change the light it receives.
 #pragma once
 
+#include "recordings/base/lanes.h"
 #include "render/sample/warp.h"
 #include "render/trace/bounding_spheres.h"
 
@@ -44,6 +45,13 @@ void find_cones(std::span<const BoundingSphere> spheres, const glm::vec3& positi
 inline bool may_hold(const ChangeCones& cones, const glm::vec3& direction) {
     const glm::vec3 apart = direction - cones.middle;
     return 0.5f * glm::dot(apart, apart) <= cones.reach;
+}
+
+/// The same of eight directions.
+inline Lanes may_hold(const ChangeCones& cones, const Vectors& directions) {
+    const Floats x = directions.x - cones.middle.x, y = directions.y - cones.middle.y,
+                 z = directions.z - cones.middle.z;
+    return 0.5f * (x * x + y * y + z * z) <= cones.reach;
 }
 
 /// A direction for `u` in [0, 1) x [0, 1); pdf 0 without cones. It may lie below the horizon.

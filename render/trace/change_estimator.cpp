@@ -38,8 +38,7 @@ struct Search {
     const ChangePass& change;
     SamplePass& pass;
     std::array<ChangeCones, packet_width> cones;
-    std::array<std::uint32_t, packet_width> first_run{};
-    int run = 1;                                 // length of a pixel's run of light tries
+    std::array<LightRun, packet_width> runs{};   // of light tries
     std::array<float, packet_width> by_cones{};  // tries over the cones, on average
     Tries waiting;                               // for a packet against virtual geometry
     Tries met;  // virtual geometry; waiting for one against real geometry
@@ -157,16 +156,15 @@ Rgb weighted(const Search& search, std::size_t lane, const LightSample& light, f
                                        search.by_cones[lane] * by_cones));
 }
 
-/// Sample `number` of the pixel's light, if virtual geometry may be seen there.
-void try_light(Search& search, std::size_t lane, int number) {
+/// A sample of the pixel's light, if virtual geometry may be seen there.
+void try_light(Search& search, std::size_t lane, const LightSample& light) {
     const ChangeCones& cones = search.cones[lane];
-    const LightSample& light = search.pass.nets.at(search.first_run[lane], search.run, number);
     if (!(may_hold(cones, light.direction) && light.pdf > 0)) return;
     const float by_cones = pdf_cones(cones, light.direction);
     if (by_cones == 0) return;
     follow_try(search,
                {lane,
-                std::uint32_t(number),
+                0,
                 light.direction,
                 weighted(search, lane, light, by_cones),
                 0,
@@ -175,12 +173,32 @@ void try_light(Search& search, std::size_t lane, int number) {
                shadows);
 }
 
+/// Eight samples of the pixel's light that stand together; most lie in no cone.
+void try_eight_lights(Search& search, std::size_t lane, std::size_t first) {
+    const LightNets& nets = search.pass.nets;
+    const auto plane = [&](std::size_t axis) {
+        return Floats(&nets.direction[axis][first], stdx::element_aligned);
+    };
+    const Lanes held = may_hold(search.cones[lane], Vectors{plane(0), plane(1), plane(2)});
+    if (stdx::none_of(held)) return;
+    for (std::size_t k = 0; k < lane_count; ++k)
+        if (held[k]) try_light(search, lane, nets.samples[first + k]);
+}
+
 void try_lights(Search& search) {
+    const LightNets& nets = search.pass.nets;
     const int tries = search.change.counts.light;
     for (std::size_t lane = 0; lane < packet_width; ++lane) {
         if (search.cones[lane].empty()) continue;
-        for (int n = 0; n < tries; ++n)
-            try_light(search, lane, search.change.ray * tries + n);
+        const LightRun& run = search.runs[lane];
+        const int begin = search.change.ray * tries;
+        if (tries % lane_count == 0 && nets.samples.size() >= lane_count) {
+            for (int n = begin; n < begin + tries; n += lane_count)
+                try_eight_lights(search, lane, nets.first_of_eight(run, n));
+        } else {
+            for (int n = begin; n < begin + tries; ++n)
+                try_light(search, lane, nets.at(run, n));
+        }
     }
     follow_rest(search, shadows);
 }
@@ -203,6 +221,7 @@ Try try_cone(const Search& search, std::size_t lane, const StratifiedSet& points
 /// One half of the tries over the cones: whole numbers of them, whose sum over a pixel's rays is
 /// rounded up or down at random to the right mean.
 void try_cones(Search& search, const Half& half) {
+    const int most = (search.pass.settings.primary * search.change.counts.cones + 1) / 2;
     for (std::size_t lane = 0; lane < packet_width; ++lane) {
         if (search.cones[lane].empty()) continue;
         SampleKey key = search.pass.keys[lane];
@@ -210,7 +229,7 @@ void try_cones(Search& search, const Half& half) {
         const float rounding = uniform(key, half.dimension);
         const float before = search.pass.sums[lane].change.cone_tries;
         const int end = int(before + 0.5f * search.by_cones[lane] + rounding);
-        const StratifiedSet points = stratified_set(key, half.dimension);
+        const StratifiedSet points = shared_set(key, half.dimension, most);
         for (int number = int(before + rounding); number < end; ++number)
             follow_try(search, try_cone(search, lane, points, number), half.follow);
     }
@@ -233,7 +252,7 @@ ChangeCounts change_counts(const TwoModeScene& scene, const SamplingSettings& se
 void add_change(const ChangePass& change) {
     const SamplePass& pass = change.pass;
     Search search(change);
-    search.run =
+    const int run =
         int(std::bit_ceil(unsigned(std::max(1, pass.settings.primary * change.counts.light))));
     for (std::size_t i = 0; i < packet_width; ++i) {
         search.cones[i].count = 0;
@@ -241,7 +260,7 @@ void add_change(const ChangePass& change) {
         const Landing& landing = pass.landings[i];
         if (!is_real(landing)) continue;
         ++change.pass.sums[i].change.camera_rays;
-        search.first_run[i] = first_run(pass.keys[i], change_by_light);
+        search.runs[i] = pass.nets.run(pass.keys[i], change_by_light, run);
         const glm::vec3 start =
             ray_origin(landing.position, landing.geometric_normal, landing.normal, surface_offset);
         find_cones(pass.scene.virtual_objects.bounds(), start, landing.normal, search.cones[i]);

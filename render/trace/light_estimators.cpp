@@ -72,7 +72,8 @@ RayPair diffuse_rays(const SamplePass& pass) {
     for (int lane = 0; lane < packet_width; ++lane) {
         const Landing& from = pass.landings[std::size_t(lane)];
         if (from.kind == LandingKind::nothing) continue;
-        const glm::vec2 u = stratified_pair(pass.keys[std::size_t(lane)], diffuse_lobe);
+        const glm::vec2 u = shared_pair(pass.keys[std::size_t(lane)], diffuse_lobe,
+                                        light_samples_on(from.kind, pass.settings));
         rays.set(lane, from, basis_about(from.normal) * sample_cosine_hemisphere(u).direction,
                  pass.scene.real.offset);
     }
@@ -131,7 +132,9 @@ void add_glossy(SamplePass& pass) {
         const auto i = std::size_t(lane);
         const Landing& from = pass.landings[i];
         if (from.kind != LandingKind::on_virtual || !from.bsdf.glossy) continue;
-        lobe[i] = sample_glossy(from.bsdf, from.frame, stratified_pair(pass.keys[i], glossy_lobe));
+        lobe[i] = sample_glossy(
+            from.bsdf, from.frame,
+            shared_pair(pass.keys[i], glossy_lobe, light_samples_on(from.kind, pass.settings)));
         if (lobe[i].pdf > 0) rays.set(lane, from, lobe[i].direction, pass.scene.real.offset);
     }
     const Bounce light_back = rays.against_virtual.active != 0 ? bounce(pass, rays) : Bounce{};

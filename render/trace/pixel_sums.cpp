@@ -66,7 +66,7 @@ void store(const PixelSums& sums, int x, int y, NoisyLayers& layers) {
     if (!layers.k_v.empty()) store_virtual(sums, i, layers);
 }
 
-void add_real_light(const PixelSums& sums, int x, int y, NoisyLayers& layers) {
+void store_real_light(const PixelSums& sums, int x, int y, NoisyLayers& layers) {
     const std::size_t i = layers.m.index(x, y);
     const auto add = [i](const PairedSum& light, Irradiance& to) {
         to.e_r.pixels[i] = light.e_r.mean();

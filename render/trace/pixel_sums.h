@@ -78,8 +78,9 @@ struct PixelSums {
 /// Writes a pixel's means into the layers.
 void store(const PixelSums& sums, int x, int y, NoisyLayers& layers);
 
-/// Adds E_R, where it is sampled for itself, to a pixel that was stored without it.
-void add_real_light(const PixelSums& sums, int x, int y, NoisyLayers& layers);
+/// Sets E_R, where it is sampled for itself, of a pixel that was stored without it, and adds it to
+/// the change.
+void store_real_light(const PixelSums& sums, int x, int y, NoisyLayers& layers);
 
 /// Layers of `lens`'s size, all zero; of what `settings` says no camera ray meets, empty images.
 NoisyLayers make_noisy_layers(const Lens& lens, const Pose& world_from_camera,

@@ -29,6 +29,8 @@ SampleKeys sample_keys(const PixelTile& tile, const Lens& lens, const SampleKey&
     for (std::size_t i = 0; i < packet_width; ++i) {
         keys[i] = frame_and_sample;
         keys[i].pixel = std::uint32_t(tile.pixels[i].y * lens.width + tile.pixels[i].x);
+        keys[i].place =
+            place_along_curve(std::uint32_t(tile.pixels[i].x), std::uint32_t(tile.pixels[i].y));
     }
     return keys;
 }

@@ -10,6 +10,15 @@ namespace inlay {
 struct RayCounts {
     std::uint64_t primary = 0, virtual_shadow = 0, virtual_indirect = 0, real_shadow = 0,
                   real_indirect = 0;
+
+    RayCounts& operator+=(const RayCounts& more) {
+        primary += more.primary;
+        virtual_shadow += more.virtual_shadow;
+        virtual_indirect += more.virtual_indirect;
+        real_shadow += more.real_shadow;
+        real_indirect += more.real_indirect;
+        return *this;
+    }
 };
 
 }  // namespace inlay

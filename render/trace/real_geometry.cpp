@@ -74,15 +74,29 @@ RealGeometry exact_real_geometry(const EmbreeScene& scene, const EnvironmentSamp
     return real;
 }
 
+RealGeometry mesh_alone(const EmbreeScene& mesh, float offset) {
+    RealGeometry real = no_real_geometry();
+    real.offset = offset;
+    real.distances = [&mesh](const RayPacket& rays) { return distances_of(mesh.intersect(rays)); };
+    real.occluded = [&mesh](const RayPacket& rays) { return mesh.occluded(rays); };
+    real.radiances = [&mesh](const RayPacket& rays, const SampleKeys&) {
+        const HitPacket hits = mesh.intersect(rays);
+        RealHits result{distances_of(hits), {}};
+        for (std::size_t i = 0; i < packet_width; ++i)
+            if (hits[i].hit())
+                result.radiance[i] =
+                    mesh.surface_point(hits[i], rays.origin[i], rays.direction[i]).vertex_color;
+        return result;
+    };
+    return real;
+}
+
 RealGeometry mesh_real_geometry(const PhotographedSurface& seen, const EmbreeScene& mesh,
                                 float offset, float visibility_tolerance) {
-    RealGeometry real;
-    real.offset = offset;
+    RealGeometry real = mesh_alone(mesh, offset);
     real.primary = [&map = seen.surface](const RayPacket& rays, const auto& pixels) {
         return map_primary(map, rays, pixels);
     };
-    real.distances = [&mesh](const RayPacket& rays) { return distances_of(mesh.intersect(rays)); };
-    real.occluded = [&mesh](const RayPacket& rays) { return mesh.occluded(rays); };
     real.radiances = [seen, &mesh, visibility_tolerance](const RayPacket& rays, const SampleKeys&) {
         const HitPacket hits = mesh.intersect(rays);
         RealHits result{distances_of(hits), {}};

@@ -65,6 +65,10 @@ struct PhotographedSurface {
 RealGeometry mesh_real_geometry(const PhotographedSurface& seen, const EmbreeScene& mesh,
                                 float offset, float visibility_tolerance);
 
+/// A mesh (world coordinates) that radiates its vertex colors wherever it is seen from, and that no
+/// camera ray meets. The reference must outlive the result.
+RealGeometry mesh_alone(const EmbreeScene& mesh, float offset);
+
 /// The surface map's pixels as triangles in world coordinates, colored by the photograph; none
 /// across holes or depth steps steeper than `max_step` (share of depth).
 TriangleMesh triangulate(const PhotographedSurface& seen, float max_step);

@@ -1,6 +1,7 @@
 #include "render/trace/real_light.h"
 
 #include "render/trace/bounce.h"
+#include "render/trace/sample_tile.h"
 
 #include <algorithm>
 #include <numbers>
@@ -11,9 +12,6 @@ namespace {
 constexpr float pi = std::numbers::pi_v<float>;
 
 bool is_real(const Landing& landing) { return landing.kind == LandingKind::real; }
-
-/// Shares of an open surface's irradiance above which a change is seen plainly, and at all.
-constexpr float plain_change = 0.06f, slight_change = 0.003f;
 
 /// One sample of the environment's light on real surfaces, shadowed by real geometry. `counts` are
 /// the samples that each pixel takes in all.
@@ -51,13 +49,15 @@ void add_real_direct(SamplePass& pass, const LaneCounts& counts) {
     }
 }
 
-/// One bounce along the cosine lobe of real surfaces, which meets real geometry alone.
-void add_real_indirect(SamplePass& pass) {
+/// One bounce along the cosine lobe of real surfaces, which meets real geometry alone. `counts` as
+/// above.
+void add_real_indirect(SamplePass& pass, const LaneCounts& counts) {
     RayPair rays;
     for (int lane = 0; lane < packet_width; ++lane) {
-        const Landing& from = pass.landings[std::size_t(lane)];
+        const auto i = std::size_t(lane);
+        const Landing& from = pass.landings[i];
         if (!is_real(from)) continue;
-        const glm::vec2 u = stratified_pair(pass.keys[std::size_t(lane)], diffuse_lobe);
+        const glm::vec2 u = shared_pair(pass.keys[i], diffuse_lobe, counts[i]);
         rays.set(lane, from, basis_about(from.normal) * sample_cosine_hemisphere(u).direction,
                  pass.scene.real.offset);
     }
@@ -103,27 +103,13 @@ void add_from_rays(const TilePass& pass, const Landings& landings, const LaneCou
             keys[i].sample = std::uint32_t(progress.taken[i]++);
         }
         SamplePass sample = pass.from(sampled, keys);
-        add_real_direct(sample, counts);
-        add_real_indirect(sample);
+        add_real_light(sample, counts);
     }
 }
 
-}  // namespace
-
-int real_light_samples(const TwoModeScene& scene, const SamplingSettings& settings, float hidden,
-                       const Rgb& change) {
-    const int most = most_real_light_samples(settings);
-    const float open = pi * scene.environment.mean_luminance;
-    const float seen = hidden + (open > 0 ? luminance(glm::abs(change)) / open : 0.0f);
-    if (seen > plain_change) return most;
-    return std::max(1, most / (seen > slight_change ? 4 : 16));
-}
-
-int most_real_light_samples(const SamplingSettings& settings) {
-    return settings.primary * settings.secondary;
-}
-
-void sample_real_light(const TilePass& pass, const LaneCounts& counts, int camera_rays) {
+/// `counts` samples (0: none) of each pixel.
+void sample_real_light(const TilePass& pass, const LaneCounts& counts) {
+    const int camera_rays = most_camera_rays(pass.settings);
     Progress progress;
     for (int ray = 0; ray < camera_rays; ++ray) {
         std::uint32_t wanting = 0;
@@ -134,6 +120,29 @@ void sample_real_light(const TilePass& pass, const LaneCounts& counts, int camer
         if (wanting == 0) return;
         add_from_rays(pass, pass.land_at(ray, wanting), counts, progress);
     }
+}
+
+}  // namespace
+
+int most_real_light_samples(const SamplingSettings& settings) {
+    return settings.primary * settings.secondary;
+}
+
+void add_real_light(SamplePass& pass, const LaneCounts& counts) {
+    add_real_direct(pass, counts);
+    add_real_indirect(pass, counts);
+}
+
+void light_real_surfaces(const TilePass& pass, std::uint32_t chosen, const NoisyLayers& layers,
+                         const Image<LightNeed>& needs) {
+    const int most = most_real_light_samples(pass.settings);
+    LaneCounts counts{};
+    for_each_lane(pass.tile, [&](std::size_t lane, const PixelSums&) {
+        const glm::ivec2 p = pass.tile.area.pixels[lane];
+        if (layers.real.object(p.x, p.y) != 0 && (chosen >> lane) & 1U)
+            counts[lane] = samples_for(needs(p.x, p.y), most);
+    });
+    sample_real_light(pass, counts);
 }
 
 }  // namespace inlay

@@ -1,6 +1,7 @@
 // E_R for itself: light on real surfaces from real geometry alone.
 #pragma once
 
+#include "render/trace/light_need.h"
 #include "render/trace/tile_pass.h"
 
 namespace inlay {
@@ -8,20 +9,18 @@ namespace inlay {
 /// A number for each pixel of a tile.
 using LaneCounts = std::array<int, packet_width>;
 
-/// Samples of E_R, where it is sampled for itself, in a pixel of which virtual surfaces hide the
-/// share `hidden` of an even sky, and whose direct light changes by `change`: as many as of other
-/// light if that is plainly seen, since the ratio to E_R is shown there; a quarter if it is slight;
-/// else a sixteenth, for the neighbours to filter with. One at least. What virtual surfaces are
-/// made of does not matter.
-int real_light_samples(const TwoModeScene& scene, const SamplingSettings& settings, float hidden,
-                       const Rgb& change);
-/// The largest number that it gives, per pixel.
+/// The largest number of samples that E_R gets in a pixel, where it is sampled for itself.
 int most_real_light_samples(const SamplingSettings& settings);
 
-/// Samples E_R from the camera rays of each pixel that land on real surfaces, `counts` samples
-/// (0: none) spread evenly over settings.primary rays; those of rays that land elsewhere are left
-/// out. Where none of these rays lands on a real surface, the next one that does, of `camera_rays`
-/// in all, stands for the first of them.
-void sample_real_light(const TilePass& pass, const LaneCounts& counts, int camera_rays);
+/// One sample of E_R, direct and indirect, where `pass` lands on real surfaces; `counts` are the
+/// samples that each pixel takes in all.
+void add_real_light(SamplePass& pass, const LaneCounts& counts);
+
+/// E_R of a tile's pixels that are `chosen`, after all else was sampled (`layers`): as many samples
+/// as its need says, spread evenly over settings.primary camera rays; those of rays that land
+/// elsewhere are left out. Where none of these rays lands on a real surface, the next one that does
+/// stands for the first of them.
+void light_real_surfaces(const TilePass& pass, std::uint32_t chosen, const NoisyLayers& layers,
+                         const Image<LightNeed>& needs);
 
 }  // namespace inlay

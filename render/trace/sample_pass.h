@@ -42,16 +42,11 @@ inline int light_samples_on(LandingKind kind, const SamplingSettings& s) {
     return s.primary * s.secondary * (kind == LandingKind::on_virtual ? s.virtual_repeats : 1);
 }
 
-/// The run of the frame's light nets in which a pixel's samples begin.
-inline std::uint32_t first_run(const SampleKey& key, std::uint32_t dimension) {
-    return hash(hash(key.pixel, hash(key.frame, key.seed)), dimension);
-}
-
 /// Sample `key.sample` of the `count` environment samples that a pixel takes for one purpose.
 inline const LightSample& light_sample(const SamplePass& pass, const SampleKey& key,
                                        std::uint32_t dimension, int count) {
-    return pass.nets.at(first_run(key, dimension), int(std::bit_ceil(unsigned(count))),
-                        int(key.sample));
+    const int length = int(std::bit_ceil(unsigned(count)));
+    return pass.nets.at(pass.nets.run(key, dimension, length), int(key.sample));
 }
 
 /// Whether light is bright enough for what blocks it to narrow the filter.

@@ -4,9 +4,20 @@
 #include <bit>
 
 namespace inlay {
+namespace {
+
+/// A place far from those of the pixel's neighbors.
+std::uint32_t scattered_place(std::uint32_t pixel) { return hash(pixel) >> 8; }
+
+}  // namespace
 
 SampleKeys TilePass::keys(int sample) const {
-    return sample_keys(tile.area, scene.lens, {settings.seed, frame, 0, std::uint32_t(sample)});
+    SampleKeys keys =
+        sample_keys(tile.area, scene.lens, {settings.seed, frame, 0, std::uint32_t(sample), 0});
+    if (!settings.spread)
+        for (SampleKey& key : keys)
+            key.place = scattered_place(key.pixel);
+    return keys;
 }
 
 Landings TilePass::land_at(int sample, std::uint32_t lanes) const {
@@ -21,6 +32,16 @@ Landings TilePass::land_at(int sample, std::uint32_t lanes) const {
 
 SamplePass TilePass::from(const Landings& landings, const SampleKeys& at) const {
     return {scene, settings, landings, at, tile.sums, tile.rays, nets};
+}
+
+std::uint32_t lanes_of(const PixelTile& area, const Image<std::uint8_t>& chosen) {
+    if (chosen.empty()) return area.inside;
+    std::uint32_t lanes = 0;
+    for (int lane = 0; lane < packet_width; ++lane) {
+        const glm::ivec2 p = area.pixels[std::size_t(lane)];
+        if (area.has(lane) && chosen(p.x, p.y) != 0) lanes |= 1U << lane;
+    }
+    return lanes;
 }
 
 Landings only(LandingKind kind, const Landings& landings) {

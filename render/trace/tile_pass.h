@@ -31,6 +31,16 @@ struct TilePass {
     SamplePass from(const Landings& landings, const SampleKeys& keys) const;
 };
 
+/// body(lane, sums) for each pixel of the tile that lies in the image.
+template <class Body>
+void for_each_lane(Tile& tile, const Body& body) {
+    for (int lane = 0; lane < packet_width; ++lane)
+        if (tile.area.has(lane)) body(std::size_t(lane), tile.sums[std::size_t(lane)]);
+}
+
+/// The lanes whose pixels are chosen (not 0); an empty image chooses all.
+std::uint32_t lanes_of(const PixelTile& area, const Image<std::uint8_t>& chosen);
+
 /// The landings of one kind; the others count as nothing.
 Landings only(LandingKind kind, const Landings& landings);
 

@@ -32,6 +32,12 @@ struct SamplingSettings {
                               // and wide filters hide most of the noise
     int light_tries = 4;  // difference: directions from the environment per light sample that are
                           // tried against the bounds of virtual geometry
+    int gathered = 64;    // difference: samples of E_R per vertex of the real mesh, kept from frame
+                          // to frame where the scene brings a ModelLight, and fewer where it
+                          // hardly shows; not used where pixels take more samples (primary x
+                          // secondary) than that, so that E_R converges with them
+    bool spread = true;   // samples of neighboring pixels are stratified together, as blue noise;
+                          // false: each pixel's for itself
     std::uint32_t seed = 1;
     float depth_tolerance =
         0.0f;  // share of depth by which real surfaces must be nearer to hide virtual ones
@@ -53,6 +59,8 @@ void validate(const SamplingSettings& settings);
 /// on, a multiple of 4.
 SamplingSettings with_samples(SamplingSettings settings, int samples);
 
+struct ModelLight;
+
 /// All that light meets in one frame, seen through `lens` from `world_from_camera`. References must
 /// outlive the call.
 struct TwoModeScene {
@@ -61,11 +69,14 @@ struct TwoModeScene {
     const RealGeometry& real;
     const EmbreeScene& virtual_objects;
     const EnvironmentSampler& environment;
+    ModelLight* model_light = nullptr;  // E_R as far as it is known, of this real geometry in this
+                                        // environment; null: it is sampled afresh
 };
 
 struct TwoModeResult {
     NoisyLayers layers;
     RayCounts rays;
+    RayCounts gathering;  // not in `rays`: what a ModelLight lacked, which no later frame traces
 };
 
 /// Says of which pixels E_R is needed (not 0), once it is known where virtual geometry meets light

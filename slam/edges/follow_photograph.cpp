@@ -14,7 +14,6 @@
 namespace inlay {
 namespace {
 
-constexpr float steepest = 0.1f;      // share of depth by which a plane is followed
 constexpr float least_share = 0.06f;  // of a pixel; less of a second surface is not kept
 constexpr int smear = 100;            // the image's width over what sensors smear depth steps by
 constexpr float noise = 0.02f;        // of encoded color, 0..1
@@ -137,7 +136,7 @@ private:
         if (other == band_.index(x, y) || !(p.z > 0)) return p;
         const glm::vec3 ray = (*view_.rays)(x, y);
         const float z = glm::dot(n, p) / glm::dot(n, ray);
-        const bool flat = z > (1 - steepest) * p.z && z < (1 + steepest) * p.z;
+        const bool flat = z > (1 - steepest_plane) * p.z && z < (1 + steepest_plane) * p.z;
         return (flat ? z : p.z) * ray;
     }
 

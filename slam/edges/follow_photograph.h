@@ -13,6 +13,9 @@ struct EdgeSettings {
     float contrast = 0.06f;  // of encoded color, 0..1: edges with less stay where they are
 };
 
+/// Share of depth by which a surface is followed along its plane, at most, each of the two times.
+inline constexpr float steepest_plane = 0.1f;
+
 /// Throws Error that names the setting which is out of range.
 void validate(const EdgeSettings& settings);
 

@@ -1,7 +1,5 @@
 #include "slam/volume/sample_volume.h"
 
-#include <cmath>
-
 namespace inlay {
 namespace {
 
@@ -36,36 +34,29 @@ float VolumeSampler::distance(const glm::vec3& p) {
 }
 
 glm::vec3 VolumeSampler::gradient(const glm::vec3& p) {
-    const float here = distance(p);
-    glm::vec3 result(0);
-    for (int axis = 0; axis < 3; ++axis) {
-        glm::vec3 offset(0);
-        offset[axis] = 1;
-        const float ahead = distance(p + offset), behind = distance(p - offset);
-        const bool both = is_known(ahead) && is_known(behind);
-        if (!both && (!is_known(here) || is_known(ahead) == is_known(behind))) return glm::vec3(0);
-        if (both) {
-            result[axis] = (ahead - behind) / 2;
-        } else {
-            result[axis] = is_known(ahead) ? ahead - here : here - behind;
-        }
-    }
-    return result;
+    return field_gradient([this](const glm::vec3& q) { return distance(q); }, p);
 }
 
-std::optional<Rgb> volume_color(VolumeSampler& sampler, const glm::vec3& p_voxels) {
-    const glm::vec3 base = glm::floor(p_voxels);
+std::optional<Rgb> mixed_color(const std::array<VoxelPlace, 8>& voxels, const glm::vec3& share) {
     Rgb sum(0);
     float weight = 0;
     for (int c = 0; c < 8; ++c) {
-        const auto [brick, slot] = sampler.voxel(glm::ivec3(base) + corner_offset(c));
+        const auto [brick, slot] = voxels[std::size_t(c)];
         if (!brick || brick->color_weight[slot] == 0) continue;
-        const float w = corner_weight(c, p_voxels - base) + 1e-6f;  // so that one voxel is enough
+        const float w = corner_weight(c, share) + 1e-6f;  // so that one voxel is enough
         sum += w * Rgb(brick->color[0][slot], brick->color[1][slot], brick->color[2][slot]);
         weight += w;
     }
     if (weight == 0) return std::nullopt;
     return sum / (weight * 65535.0f);
+}
+
+std::optional<Rgb> volume_color(VolumeSampler& sampler, const glm::vec3& p_voxels) {
+    const glm::vec3 base = glm::floor(p_voxels);
+    std::array<VoxelPlace, 8> voxels;
+    for (int c = 0; c < 8; ++c)
+        voxels[std::size_t(c)] = sampler.voxel(glm::ivec3(base) + corner_offset(c));
+    return mixed_color(voxels, p_voxels - base);
 }
 
 std::optional<Rgb> volume_color(const VoxelVolume& volume, const glm::vec3& p_world) {

@@ -47,9 +47,31 @@ private:
     std::array<Known, 8> known_;  // by the parity of the key: bricks that meet have places apart
 };
 
+/// VolumeSampler::gradient() of the field that `distance` gives.
+template <class Distance>
+glm::vec3 field_gradient(const Distance& distance, const glm::vec3& p) {
+    const float here = distance(p);
+    glm::vec3 result(0);
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::vec3 offset(0);
+        offset[axis] = 1;
+        const float ahead = distance(p + offset), behind = distance(p - offset);
+        const bool both = is_known(ahead) && is_known(behind);
+        if (!both && (!is_known(here) || is_known(ahead) == is_known(behind))) return glm::vec3(0);
+        if (both) {
+            result[axis] = (ahead - behind) / 2;
+        } else {
+            result[axis] = is_known(ahead) ? ahead - here : here - behind;
+        }
+    }
+    return result;
+}
+
 /// The fused linear color at a point (m, world): trilinear over those of the eight voxels around it
 /// that saw a color; empty where none did.
 std::optional<Rgb> volume_color(const VoxelVolume& volume, const glm::vec3& p_world);
 std::optional<Rgb> volume_color(VolumeSampler& sampler, const glm::vec3& p_voxels);
+/// The same from the eight voxels, x fastest; `share` is how far the point lies beyond the first.
+std::optional<Rgb> mixed_color(const std::array<VoxelPlace, 8>& voxels, const glm::vec3& share);
 
 }  // namespace inlay

@@ -63,13 +63,27 @@ TEST_P(EveryGeometry, WithoutObjectsEveryByteIsTheRecordedOne) {
     EXPECT_EQ(out.rays.primary, 0u);  // an empty scene traces nothing
 }
 
-TEST_P(EveryGeometry, AnObjectOutOfReachChangesNoByte) {
+TEST_P(EveryGeometry, AnObjectThatNoRayMeetsChangesNoByte) {
     Settings settings = quick_settings();
     settings.geometry.kind = GetParam();
-    VirtualScene far;  // behind the camera and below the table: no ray of the room meets it
-    far.objects.push_back(test::ball("far", {0, -50, 0}, 0.01f, Diffuse{}, false));
+    VirtualScene far;  // behind the camera and below the table: no ray of the room meets it, but
+                       // it is too large for the plan to leave it out
+    far.objects.push_back(test::ball("far", {0, -50, 0}, 0.5f, Diffuse{}, false));
     const OutputFrame out = play(settings, far, 2);
     EXPECT_GT(out.rays.primary, 0u);
+    EXPECT_TRUE(
+        same_bytes(out.composite.display, test::record_frame(test::tabletop(), lens, 1).color));
+}
+
+TEST_P(EveryGeometry, ASmallFarObjectOutOfViewTracesNothing) {
+    Settings settings = quick_settings();
+    settings.geometry.kind = GetParam();
+    VirtualScene far;
+    far.objects.push_back(test::ball("far", {0, 0.6, 87}, 0.1f, Diffuse{}, false));
+    const OutputFrame out = play(settings, far, 2);
+    EXPECT_TRUE(out.plan.names().empty());
+    EXPECT_EQ(out.rays.primary, 0u);
+    EXPECT_EQ(out.real, nullptr);
     EXPECT_TRUE(
         same_bytes(out.composite.display, test::record_frame(test::tabletop(), lens, 1).color));
 }
@@ -125,6 +139,29 @@ TEST(FrameLoop, ThePlanFollowsAnObjectThatComesAndGoes) {
         EXPECT_EQ(out.noisy->k_v.empty(), !seen) << i;
         EXPECT_EQ(out.noisy->s_rv.empty(), !seen) << i;
         EXPECT_EQ(out.composite.virtual_pixels > 0, seen) << i;
+        EXPECT_EQ(out.composite.replaced_pixels, 0u) << i;
+        EXPECT_EQ(named_layers(out, layer_names()).layers.size(), layer_names().size()) << i;
+    }
+}
+
+TEST(FrameLoop, AnObjectThatWasFarAwayComesBack) {
+    VirtualScene objects = test::two_virtual_balls();
+    for (SceneObject& object : objects.objects) {
+        const glm::dmat4 here = object.motion[0].world_from_object;
+        const glm::dmat4 far = glm::translate(glm::dmat4(1), glm::dvec3(0, 0.6, 87));
+        object.motion = {{0, here}, {1 / 30.0, far}, {2 / 30.0, here}, {3 / 30.0, here}};
+    }
+    Session session = start_session(quick_settings(), objects, test::soft_light());
+    for (int i = 0; i < 4; ++i) {
+        const RgbdFrame frame = test::record_frame(test::tabletop(), lens, i);
+        const OutputFrame out = advance(session, frame, FrameWork::compose);
+        const bool far = i == 1;
+        EXPECT_EQ(out.plan.names().empty(), far) << i;
+        EXPECT_EQ(out.rays.primary == 0, far) << i;
+        EXPECT_EQ(same_bytes(out.composite.display, frame.color), far) << i;
+        EXPECT_EQ(out.plan.has("temporal_filter"), i == 3) << i;  // else there is no frame before
+        EXPECT_EQ(session.previous == nullptr, far) << i;
+        EXPECT_EQ(out.composite.virtual_pixels > 0, !far) << i;
         EXPECT_EQ(out.composite.replaced_pixels, 0u) << i;
         EXPECT_EQ(named_layers(out, layer_names()).layers.size(), layer_names().size()) << i;
     }

@@ -59,6 +59,28 @@ TEST(Plan, WithoutVirtualObjectsAViewIsThePhotographAlone) {
     EXPECT_EQ(empty.composite.linear.pixels, empty.camera.pixels);
 }
 
+TEST(Plan, AFarObjectOutOfViewLeavesThePhotographAloneAndANearOneDoesNot) {
+    const auto behind_the_camera = [](double z) {
+        return render(
+            table_with({{test::ball("ball", {0, 0.6, z}, 0.15f, Diffuse{Rgb(0.9f)}, false)}}),
+            test::soft_light());
+    };
+    const OutputFrame far = behind_the_camera(87);
+    EXPECT_TRUE(far.plan.names().empty());
+    EXPECT_EQ(far.rays.primary + far.rays.virtual_shadow + far.rays.virtual_indirect +
+                  far.rays.real_shadow + far.rays.real_indirect,
+              0u);
+    EXPECT_EQ(far.noisy, nullptr);
+    EXPECT_EQ(far.composite.linear.pixels, far.camera.pixels);
+    EXPECT_EQ(far.composite.display.pixels, encode(far.camera).pixels);
+
+    const OutputFrame near = behind_the_camera(1.3);
+    EXPECT_FALSE(near.plan.has("virtual_surfaces"));
+    EXPECT_GT(near.rays.primary, 0u);
+    EXPECT_GT(near.rays.virtual_shadow, 0u);
+    EXPECT_GT(near.composite.influenced_pixels, 0u);
+}
+
 TEST(Plan, ObjectsBringEveryClassOfRays) {
     const OutputFrame out = render(table_with(test::two_virtual_balls()), test::soft_light());
     for (const std::uint64_t count :

@@ -42,5 +42,38 @@ TEST(StratifiedPair, EveryPartOfTheKeyChangesTheNumbers) {
     EXPECT_EQ(stratified_pair(key, 0), stratified_pair(key, 0));
 }
 
+TEST(SharedPair, NeighborsAreSpreadTogether) {
+    for (const int per_pixel : {1, 4, 16}) {
+        for (const std::uint32_t pixels : {4u, 16u, 64u}) {
+            const int points = int(pixels) * per_pixel;
+            for (int columns = 1; columns <= points; columns *= 2) {
+                std::set<int> cells;
+                for (std::uint32_t p = 0; p < pixels; ++p) {
+                    for (int i = 0; i < per_pixel; ++i) {
+                        const SampleKey key{1, 2, 900 + p, std::uint32_t(i), 5 * pixels + p};
+                        const glm::vec2 u = shared_pair(key, 3, per_pixel);
+                        cells.insert(int(u.y * float(points / columns)) * columns +
+                                     int(u.x * float(columns)));
+                    }
+                }
+                EXPECT_EQ(int(cells.size()), points) << per_pixel << " in " << pixels;
+            }
+        }
+    }
+}
+
+TEST(PlaceAlongCurve, KeepsSquaresTogether) {
+    for (const std::uint32_t side : {2u, 4u, 16u}) {
+        std::set<std::uint32_t> places;
+        for (std::uint32_t y = 0; y < side; ++y)
+            for (std::uint32_t x = 0; x < side; ++x)
+                places.insert(place_along_curve(3 * side + x, 5 * side + y));
+        EXPECT_EQ(places.size(), side * side);
+        EXPECT_EQ(*places.rbegin() - *places.begin(), side * side - 1);
+        EXPECT_EQ(*places.begin() % (side * side), 0u);
+    }
+    EXPECT_EQ(place_along_curve(65535, 65535), 0xffffffffU);
+}
+
 }  // namespace
 }  // namespace inlay::test

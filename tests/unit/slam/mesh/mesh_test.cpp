@@ -3,7 +3,6 @@
 #include "recordings/base/color.h"
 #include "recordings/base/random.h"
 #include "slam/mesh/extract_mesh.h"
-#include "slam/mesh/weld_vertices.h"
 #include "slam/mesh/write_ply.h"
 
 #include <gtest/gtest.h>
@@ -129,17 +128,6 @@ TEST(ExtractMesh, UnknownSpaceIsNotClosedByASurface) {
 
 TEST(ExtractMesh, NothingGivesNothing) {
     EXPECT_TRUE(extract_mesh(VoxelVolume{}).triangles.empty());
-}
-
-TEST(WeldVertices, CornersOnOneEdgeBecomeOneVertex) {
-    const std::vector<EdgeCorner> soup{{{1, 0, 0}, {0.5f, 0, 0}}, {{0, 1, 0}, {0, 0.5f, 0}},
-                                       {{0, 0, 1}, {0, 0, 0.5f}}, {{0, 1, 0}, {0, 0.5f, 0}},
-                                       {{1, 0, 0}, {0.5f, 0, 0}}, {{1, 2, 0}, {0.5f, 1, 0}}};
-    const WeldedTriangles welded = weld_vertices(soup);
-    EXPECT_EQ(welded.positions.size(), 4U);
-    ASSERT_EQ(welded.triangles.size(), 2U);
-    EXPECT_EQ(welded.triangles[0], glm::uvec3(0, 1, 2));
-    EXPECT_EQ(welded.triangles[1], glm::uvec3(1, 0, 3));
 }
 
 class WritePly : public ::testing::Test {
