@@ -72,7 +72,6 @@ FrameReport report_of(int frame, double time, const OutputFrame& composed) {
     report.exposure = composed.exposure;
     report.ms = composed.ms;
     report.rays = composed.rays;
-    report.gathered_rays = composed.gathered_rays;
     report.pixels = {composed.composite.virtual_pixels, composed.composite.influenced_pixels,
                      skipped_pixels(composed)};
     report.dropped_samples = composed.dropped_samples;

@@ -125,7 +125,7 @@ OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work) {
         TwoModeResult sampled = sample(session, *out.real, frame, out.plan, settings.trace,
                                        demand_of(settings, previous.get()));
         out.rays = sampled.rays;
-        out.gathered_rays = sampled.gathering.real_shadow + sampled.gathering.real_indirect;
+        out.rays += sampled.gathering;
         out.dropped_samples = sampled.layers.dropped_samples;
         session.previous = std::make_shared<const NoisyLayers>(std::move(sampled.layers));
         out.ms.trace = watch.lap();

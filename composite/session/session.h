@@ -65,8 +65,7 @@ struct OutputFrame {
     Layers layers;
     Image<Rgb> camera;  // the photograph, linear, at the reference exposure
     Rgb exposure{1};    // of the photograph, relative to that
-    RayCounts rays;
-    std::uint64_t gathered_rays = 0;    // for E_R on the model, in the first frame that asks for it
+    RayCounts rays;     // with those for light on the model that later frames find there
     std::uint64_t dropped_samples = 0;  // non-finite ones, left out of every mean
     StageTimes ms;
 };

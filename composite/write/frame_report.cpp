@@ -146,7 +146,6 @@ std::string to_json_line(const FrameReport& r) {
               {"replaced_pixels", r.replaced_pixels},
               {"plan", r.plan}};
     if (r.exposure != glm::vec3(1)) json["exposure"] = {r.exposure.r, r.exposure.g, r.exposure.b};
-    if (r.gathered_rays > 0) json["gathered_rays"] = r.gathered_rays;
     if (r.governor) json["governor"] = to_json(*r.governor);
     return json.dump();
 }
@@ -175,7 +174,6 @@ FrameReport from_json_line(const std::string& line, const std::string& place) {
         r.rays = {count(rays, "primary"), count(rays, "virtual_shadow"),
                   count(rays, "virtual_indirect"), count(rays, "real_shadow"),
                   count(rays, "real_indirect")};
-        if (json.contains("gathered_rays")) r.gathered_rays = count(json, "gathered_rays");
         r.pixels = {count(pixels, "virtual"), count(pixels, "influenced"),
                     count(pixels, "skipped")};
         r.dropped_samples = count(json, "dropped_samples");

@@ -43,10 +43,8 @@ struct FrameReport {
     glm::vec3 exposure{1};     // of the photograph, relative to that of the model's colors, per
                                // channel; in the line only where it is not 1
     StageTimes ms{};
-    RayCounts rays{};
-    std::uint64_t gathered_rays = 0;  // more of them, for light that later frames find there: like
-                                      // times, they depend on which frames were asked for; in the
-                                      // line only where there are any
+    RayCounts rays{};  // as times are, more in the frame that is the first to ask for the light on
+                       // a finished model, which others find there
     PixelCounts pixels{};
     std::uint64_t dropped_samples = 0;  // not finite, left out of every mean
     std::uint64_t replaced_pixels = 0;  // a term was not finite: the photograph stands in

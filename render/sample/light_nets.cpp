@@ -23,8 +23,7 @@ LightRun LightNets::run(const SampleKey& key, std::uint32_t dimension, int lengt
     const int bits = std::min(std::countr_zero(unsigned(length)), net_bits);
     const int run_bits = net_bits - bits;
     const std::uint32_t last_run = (1U << run_bits) - 1;
-    const std::uint32_t purpose = seed + dimension * 0x9e3779b9U;
-    const std::uint32_t net = hash((key.place >> run_bits) ^ purpose);
+    const std::uint32_t net = hash(hash(key.place >> run_bits, seed), dimension);
     const std::size_t in_net = shuffle_nested(key.place & last_run, net) & last_run;
     const std::size_t run = (std::size_t(net >> 16) << run_bits) + in_net;
     return {(run << bits) & (samples.size() - 1), hash(key.pixel ^ net) & ((1U << bits) - 1)};

@@ -20,7 +20,11 @@ namespace {
 /// Ends the test by a signal where an operation makes NaN or divides by zero.
 class TrapInvalid {
 public:
-    TrapInvalid() { ::feenableexcept(FE_INVALID | FE_DIVBYZERO); }
+    TrapInvalid() {
+        ::feclearexcept(
+            FE_ALL_EXCEPT);  // of before: the x87 unit would trap on what it still holds
+        ::feenableexcept(FE_INVALID | FE_DIVBYZERO);
+    }
     ~TrapInvalid() { ::fedisableexcept(FE_INVALID | FE_DIVBYZERO); }
 };
 
