@@ -65,8 +65,8 @@ ModelLight* keep_model_light(std::unique_ptr<ModelLight>& kept,
 /// Sets E_R of the pixels that are `chosen` (empty: all) and have a real receiver where the mesh
 /// has the same surface, between its vertices; gathers what these lack. Rates are upper bounds: the
 /// largest of the vertices', and no more than at the distance `occluder_floor` (share of depth).
-/// One frame at a time. Returns the pixels that are left (not 0): the
-/// mesh has another surface there than the pixel sees, or none.
+/// One frame at a time. Returns the pixels that are left (not 0): the mesh has another surface
+/// there than the pixel sees, or none.
 Image<std::uint8_t> light_from_model(ModelLight& light, const Image<std::uint8_t>& chosen,
                                      const Image<LightNeed>& needs, float occluder_floor,
                                      TwoModeResult& result);
