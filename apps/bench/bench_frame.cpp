@@ -48,6 +48,13 @@ struct Subject {
     }
 };
 
+/// The thesis's samples, and no more of them on virtual surfaces.
+SamplingSettings one_for_one(SamplingSettings sampling) {
+    sampling.coverage = 0;
+    sampling.virtual_repeats = 1;
+    return sampling;
+}
+
 Subject open_subject(const std::filesystem::path& recording, int frame,
                      const std::filesystem::path& scene, RealGeometryKind kind) {
     Settings settings;
@@ -131,14 +138,14 @@ int run(int argc, char** argv) {
         benchmark::DoNotOptimize(trace_bare(all, *in_all));
     };
     add_benchmark("two scenes", 2, rays_of(*in_real, *in_all), trace_two_scenes, repeats);
-    SamplingSettings everything = subject.sampling(Estimator::two_mode);
-    everything.coverage = 0;
-    everything.virtual_repeats = 1;  // the thesis's samples, one for one
-    add_sampler("two modes", subject, everything, real, objects);
+    add_sampler("two modes", subject, one_for_one(subject.sampling(Estimator::two_mode)), real,
+                objects);
     const SamplingSettings difference = subject.sampling(Estimator::difference);
     add_sampler("difference", subject, difference, real, objects);
     add_sampler("difference, E_R kept", subject, difference, real, objects,
                 subject.model_light(difference));
+    add_sampler("difference, one for one, E_R kept", subject, one_for_one(difference), real,
+                objects, subject.model_light(difference));
     const auto march = [&marched] {
         benchmark::DoNotOptimize(marched.sample(marched.sampling(Estimator::difference)));
     };
@@ -147,7 +154,8 @@ int run(int argc, char** argv) {
     benchmark::Initialize(&argc, argv);
     benchmark::RunSpecifiedBenchmarks();
     std::cout << "\n";
-    for (const std::string name : {"two modes", "difference", "difference, E_R kept"}) {
+    for (const std::string name :
+         {"two modes", "difference", "difference, E_R kept", "difference, one for one, E_R kept"}) {
         print_ratio(name, "two scenes");
         print_ratio(name, name + "/its rays alone");
         print_ratio(name + "/1 thread", name);

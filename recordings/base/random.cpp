@@ -69,14 +69,13 @@ glm::vec2 stratified_pair(const SampleKey& k, std::uint32_t dimension) {
     return stratified_set(k, dimension).at(k.sample);
 }
 
-StratifiedSet shared_set(const SampleKey& k, std::uint32_t dimension, int per_pixel) {
-    StratifiedSet set = stratified_set({k.seed, k.frame, 0, 0, 0}, dimension);
-    set.first = k.place * std::bit_ceil(std::uint32_t(per_pixel));
-    return set;
+StratifiedSet frame_set(const SampleKey& k, std::uint32_t dimension) {
+    return stratified_set({k.seed, k.frame, 0, 0, 0}, dimension);
 }
 
-glm::vec2 shared_pair(const SampleKey& k, std::uint32_t dimension, int per_pixel) {
-    return shared_set(k, dimension, per_pixel).at(k.sample);
+StratifiedSet run_of(StratifiedSet frame_set, std::uint32_t place, int per_pixel) {
+    frame_set.first = place * std::bit_ceil(std::uint32_t(per_pixel));
+    return frame_set;
 }
 
 }  // namespace inlay

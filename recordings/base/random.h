@@ -60,14 +60,14 @@ StratifiedSet stratified_set(const SampleKey& k, std::uint32_t dimension);
 /// Point `k.sample` of its pixel's set.
 glm::vec2 stratified_pair(const SampleKey& k, std::uint32_t dimension);
 
-/// The run of a pixel in the one set of its frame: `per_pixel` points, rounded up to a power of
-/// two; beyond them the next pixel's follow, and beyond 2^32 in all the first ones again. Runs
-/// follow each other along the Z-curve, so that the samples of neighbors are spread together as
-/// well, and a filter takes more of their error away than of independent ones (Ahmed and Wonka
-/// 2020).
-StratifiedSet shared_set(const SampleKey& k, std::uint32_t dimension, int per_pixel);
+/// The one set that all pixels of a frame share (of `k`, only seed and frame are used).
+StratifiedSet frame_set(const SampleKey& k, std::uint32_t dimension);
 
-/// Point `k.sample` of its pixel's run.
-glm::vec2 shared_pair(const SampleKey& k, std::uint32_t dimension, int per_pixel);
+/// The run of a pixel at `place` (SampleKey::place) in its frame's set: `per_pixel` points, rounded
+/// up to a power of two; beyond them the next pixel's follow, and beyond 2^32 in all the first ones
+/// again. Runs follow each other along the Z-curve, so that the samples of neighbors are spread
+/// together as well, and a filter takes more of their error away than of independent ones (Ahmed
+/// and Wonka 2020).
+StratifiedSet run_of(StratifiedSet frame_set, std::uint32_t place, int per_pixel);
 
 }  // namespace inlay

@@ -14,8 +14,9 @@ constexpr float pi = std::numbers::pi_v<float>;
 /// (Veach 1997, one-sample model): else a narrow lobe would meet bright light too rarely.
 LightSample light_for_hit(const SamplePass& pass, const Landing& at, const SampleKey& key) {
     const EnvironmentSampler& environment = pass.scene.environment;
-    const LightSample& light =
-        light_sample(pass, key, light_at_hit, light_samples_on(LandingKind::real, pass.settings));
+    const LightSample& light = pass.nets.at(
+        light_run(pass, key, light_at_hit, light_samples_on(LandingKind::real, pass.settings)),
+        int(key.sample));
     if (!at.bsdf.glossy) return light;
     const glm::vec2 u = stratified_pair(key, glossy_lobe_at_hit);
     LightSample sample;

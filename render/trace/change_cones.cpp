@@ -36,14 +36,16 @@ struct SeenSpheres {
     Plane cosine;  // to the normal: the largest within the cone
 };
 
+/// What is seen of a sphere from a point is seen from another one of a sphere that is larger by the
+/// way between them.
 void look_at(std::span<const BoundingSphere> spheres, const glm::vec3& position,
-             const glm::vec3& normal, SeenSpheres& seen) {
+             const glm::vec3& normal, float reach, SeenSpheres& seen) {
     for (std::size_t i = 0; i < spheres.size() || i % lanes != 0; ++i) {
         const BoundingSphere sphere = i < spheres.size() ? spheres[i] : BoundingSphere{position, 0};
         seen.axis_x[i] = sphere.centre.x - position.x;
         seen.axis_y[i] = sphere.centre.y - position.y;
         seen.axis_z[i] = sphere.centre.z - position.z;
-        seen.radius[i] = sphere.radius * rounding_margin;
+        seen.radius[i] = (sphere.radius + reach) * rounding_margin;
     }
     for (std::size_t i = 0; i < spheres.size(); i += lanes) {
         const Eight x = lanes_at(&seen.axis_x[i]), y = lanes_at(&seen.axis_y[i]),
@@ -100,10 +102,10 @@ void enclose(ChangeCones& cones) {
 }  // namespace
 
 void find_cones(std::span<const BoundingSphere> spheres, const glm::vec3& position,
-                const glm::vec3& normal, ChangeCones& cones) {
+                const glm::vec3& normal, float reach, ChangeCones& cones) {
     require(spheres.size() <= std::size_t(most_change_cones), "more bounds than change cones");
     SeenSpheres seen;
-    look_at(spheres, position, normal, seen);
+    look_at(spheres, position, normal, reach, seen);
     cones.normal = normal;
     bool held = false;
     float sum = 0;  // bound of the irradiance of an even sky of radiance 1, over 2 pi

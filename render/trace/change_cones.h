@@ -35,11 +35,12 @@ struct ChangeCones {
     bool empty() const { return count == 0 && hemisphere == 0; }
 };
 
-/// Sets the cones of `spheres` as seen from `position`, where rays start, on a surface with the
-/// unit normal `normal`. Spheres below the horizon, and those that are points seen from afar, have
-/// none. Throws Error for more than most_change_cones of them.
+/// Sets the cones of `spheres` as seen from all points within `reach` (m, >= 0) of `position`,
+/// where rays start, on a surface with the unit normal `normal`. Spheres below the horizon, and
+/// those that are points seen from afar, have none. Throws Error for more than most_change_cones of
+/// them.
 void find_cones(std::span<const BoundingSphere> spheres, const glm::vec3& position,
-                const glm::vec3& normal, ChangeCones& cones);
+                const glm::vec3& normal, float reach, ChangeCones& cones);
 
 /// Whether a unit direction can have a density at all: asked first, since most have none.
 inline bool may_hold(const ChangeCones& cones, const glm::vec3& direction) {

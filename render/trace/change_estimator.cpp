@@ -1,239 +1,72 @@
-// Rays that look for a change wait until 16 of them, of any pixels of the tile, make a packet.
 #include "render/trace/change_estimator.h"
 
-#include "render/trace/bounce.h"
+#include "render/trace/change_cones.h"
+#include "render/trace/change_rays.h"
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace inlay {
 namespace {
 
 bool is_real(const Landing& landing) { return landing.kind == LandingKind::real; }
 
-/// A direction from one of the tile's landings.
-struct Try {
-    std::size_t lane = 0;
-    std::uint32_t number = 0;  // among those of the pixel
-    glm::vec3 direction{0.0f};
-    Rgb light{0};         // irradiance (cos / p weighted) that the environment sends from there
-    float weight = 0;     // cos / p of radiance that surfaces send from there; 0: not asked
-    bool bright = false;  // enough light to narrow the filter
-    SurfaceHit on_virtual;
-};
-
-/// A packet that fills up.
-struct Tries {
-    std::array<Try, packet_width> tries;
-    int count = 0;
-
-    void add(const Try& t) { tries[std::size_t(count++)] = t; }
-    bool full() const { return count == packet_width; }
-};
-
-/// What the tries of one camera ray of each pixel share.
-struct Search {
-    explicit Search(const ChangePass& c) : change(c), pass(c.pass) {}
-
-    const ChangePass& change;
-    SamplePass& pass;
-    std::array<ChangeCones, packet_width> cones;
-    std::array<LightRun, packet_width> runs{};   // of light tries
-    std::array<float, packet_width> by_cones{};  // tries over the cones, on average
-    Tries waiting;                               // for a packet against virtual geometry
-    Tries met;  // virtual geometry; waiting for one against real geometry
-};
-
-RayPair rays_of(const Search& search, const Tries& tries) {
-    RayPair rays;
-    for (int k = 0; k < tries.count; ++k) {
-        const Try& t = tries.tries[std::size_t(k)];
-        rays.set(k, search.pass.landings[t.lane], t.direction, search.pass.scene.real.offset);
-    }
-    return rays;
-}
-
-void narrow(const Search& search, const Try& t) {
-    const float rate = occluder_rate(search.pass.landings[t.lane], t.direction,
-                                     t.on_virtual.distance, search.pass.settings);
-    ChangeSums& sums = search.pass.sums[t.lane].change;
-    widen(sums.rate_indirect, rate);
-    if (t.bright) widen(sums.rate_direct, rate);
-}
-
-/// Light that virtual surfaces keep away, unless real ones do already.
-void take_shadows(Search& search) {
-    const RayPacket rays = rays_of(search, search.met).against_real;
-    const std::uint32_t behind_real = search.pass.scene.real.occluded(rays);
-    search.pass.rays.real_shadow += count(rays);
-    for (int k = 0; k < search.met.count; ++k) {
-        const Try& t = search.met.tries[std::size_t(k)];
-        narrow(search, t);
-        if (!((behind_real >> k) & 1U))
-            search.pass.sums[t.lane].change.add(&ChangeSums::direct, -t.light);
-    }
-    search.met.count = 0;
-}
-
-/// The same, and the radiance of virtual surfaces in the place of real ones.
-void exchange_surfaces(Search& search) {
-    const RayPair rays = rays_of(search, search.met);
-    SampleKeys keys = search.pass.keys;
-    std::uint32_t nearest = 0;
-    HitPacket hits;
-    for (int k = 0; k < search.met.count; ++k) {
-        const Try& t = search.met.tries[std::size_t(k)];
-        keys[std::size_t(k)] = search.pass.keys[t.lane];
-        keys[std::size_t(k)].sample = t.number;
-        hits[std::size_t(k)] = t.on_virtual;
-    }
-    const RealHits behind = search.pass.scene.real.radiances(rays.against_real, keys);
-    search.pass.rays.real_indirect += count(rays.against_real);
-    for (int k = 0; k < search.met.count; ++k)
-        if (hits[std::size_t(k)].distance <= behind.distance[std::size_t(k)]) nearest |= 1U << k;
-    SamplePass mixed{search.pass.scene, search.pass.settings, search.pass.landings, keys,
-                     search.pass.sums,  search.pass.rays,     search.pass.nets};
-    const RadiancePacket sent = shade_virtual_hits(mixed, rays.against_virtual, hits, nearest);
-    for (int k = 0; k < search.met.count; ++k) {
-        const Try& t = search.met.tries[std::size_t(k)];
-        if (!((nearest >> k) & 1U)) continue;
-        const auto i = std::size_t(k);
-        const bool open = behind.distance[i] == no_hit;
-        narrow(search, t);
-        ChangeSums& sums = search.pass.sums[t.lane].change;
-        sums.hidden += double(t.weight);
-        if (open) sums.add(&ChangeSums::direct, -t.light);
-        sums.add(&ChangeSums::indirect, t.weight * (open ? sent[i] : sent[i] - behind.radiance[i]));
-    }
-    search.met.count = 0;
-}
-
-/// What becomes of tries that meet virtual geometry, and the class of rays that looks for it.
-struct Follow {
-    void (*step)(Search&);
-    std::uint64_t RayCounts::*virtual_rays;
-};
-constexpr Follow shadows{take_shadows, &RayCounts::virtual_shadow};
-constexpr Follow surfaces{exchange_surfaces, &RayCounts::virtual_indirect};
-
-/// Half of the tries over the cones, with random numbers of its own.
+/// Half of the tries over the cones.
 struct Half {
-    SampleDimension dimension;
-    const Follow& follow;
+    ChangeRays rays;
+    SampleDimension dimension;  // of its random numbers
+    StratifiedSet points;       // of all pixels
 };
 
-void look_for_virtual(Search& search, const Follow& follow) {
-    const RayPacket rays = rays_of(search, search.waiting).against_virtual;
-    const HitPacket hits = search.pass.scene.virtual_objects.intersect(rays);
-    search.pass.rays.*follow.virtual_rays += count(rays);
-    for (int k = 0; k < search.waiting.count; ++k) {
-        if (!hits[std::size_t(k)].hit()) continue;
-        Try t = search.waiting.tries[std::size_t(k)];
-        t.on_virtual = hits[std::size_t(k)];
-        search.met.add(t);
-        if (search.met.full()) follow.step(search);
+/// What all pixels of a tile share.
+struct Search {
+    Search(const TilePass& tile, std::span<const Landings> landings, int ray)
+        : counts(change_counts(tile.scene, tile.settings)),
+          camera_rays(landings),
+          first_ray(ray),
+          pass(tile.from(landings[0], tile.keys(0))),
+          surfaces(half(ChangeKind::surfaces, change_by_cones)),
+          shadows(half(ChangeKind::shadows, change_by_cones_again)) {}
+    Half half(ChangeKind kind, SampleDimension dimension) const {
+        return {{kind, counts.light}, dimension, frame_set(pass.keys[0], dimension)};
     }
-    search.waiting.count = 0;
+
+    ChangeCounts counts;
+    std::span<const Landings> camera_rays;
+    int first_ray;
+    SamplePass pass;
+    Half surfaces, shadows;
+};
+
+/// Points on one surface that see nearly the same of what surrounds them.
+struct Vicinity {
+    glm::vec3 position{0.0f}, normal{0.0f};
+    float reach = 0;  // m, of the points about `position`
+};
+
+Vicinity vicinity_of(const Landing& landing) {
+    return {ray_origin(landing.position, landing.geometric_normal, landing.normal, surface_offset),
+            landing.normal, 0};
 }
 
-/// Follows a try that has a direction above the surface, once a packet is full.
-void follow_try(Search& search, const Try& t, const Follow& follow) {
-    if (!(glm::dot(search.pass.landings[t.lane].normal, t.direction) > 0)) return;
-    search.waiting.add(t);
-    if (search.waiting.full()) look_for_virtual(search, follow);
-}
-
-/// The packets that are not full.
-void follow_rest(Search& search, const Follow& follow) {
-    if (search.waiting.count > 0) look_for_virtual(search, follow);
-    if (search.met.count > 0) follow.step(search);
-}
-
-/// Irradiance from a direction, weighted with the density of all tries that may draw it.
-Rgb weighted(const Search& search, std::size_t lane, const LightSample& light, float by_cones) {
-    const float cosine = glm::dot(search.pass.landings[lane].normal, light.direction);
-    return light.radiance * (cosine / (float(search.change.counts.light) * light.pdf +
-                                       search.by_cones[lane] * by_cones));
-}
-
-/// A sample of the pixel's light, if virtual geometry may be seen there.
-void try_light(Search& search, std::size_t lane, const LightSample& light) {
-    const ChangeCones& cones = search.cones[lane];
-    if (!(may_hold(cones, light.direction) && light.pdf > 0)) return;
-    const float by_cones = pdf_cones(cones, light.direction);
-    if (by_cones == 0) return;
-    follow_try(search,
-               {lane,
-                0,
-                light.direction,
-                weighted(search, lane, light, by_cones),
-                0,
-                counts_as_occluded(search.pass, light.radiance),
-                {}},
-               shadows);
-}
-
-/// Eight samples of the pixel's light that stand together; most lie in no cone.
-void try_eight_lights(Search& search, std::size_t lane, std::size_t first) {
-    const LightNets& nets = search.pass.nets;
-    const auto plane = [&](std::size_t axis) {
-        return Floats(&nets.direction[axis][first], stdx::element_aligned);
-    };
-    const Lanes held = may_hold(search.cones[lane], Vectors{plane(0), plane(1), plane(2)});
-    if (stdx::none_of(held)) return;
-    for (std::size_t k = 0; k < lane_count; ++k)
-        if (held[k]) try_light(search, lane, nets.samples[first + k]);
-}
-
-void try_lights(Search& search) {
-    const LightNets& nets = search.pass.nets;
-    const int tries = search.change.counts.light;
-    for (std::size_t lane = 0; lane < packet_width; ++lane) {
-        if (search.cones[lane].empty()) continue;
-        const LightRun& run = search.runs[lane];
-        const int begin = search.change.ray * tries;
-        if (tries % lane_count == 0 && nets.samples.size() >= lane_count) {
-            for (int n = begin; n < begin + tries; n += lane_count)
-                try_eight_lights(search, lane, nets.first_of_eight(run, n));
-        } else {
-            for (int n = begin; n < begin + tries; ++n)
-                try_light(search, lane, nets.at(run, n));
-        }
+/// Of all camera rays of a pixel that land on one plane. Nothing (reach < 0) where they do not.
+Vicinity common_vicinity(std::span<const Landings> camera_rays, std::size_t lane) {
+    Vicinity common;
+    int count = 0;
+    for (const Landings& landings : camera_rays) {
+        if (!is_real(landings[lane])) continue;
+        const Vicinity one = vicinity_of(landings[lane]);
+        if (count++ == 0) common.normal = one.normal;
+        common.position += one.position;
+        if (one.normal != common.normal) return {{}, {}, -1};
     }
-    follow_rest(search, shadows);
-}
-
-Try try_cone(const Search& search, std::size_t lane, const StratifiedSet& points, int number) {
-    const DirectionSample drawn =
-        sample_cones(search.cones[lane], points.at(std::uint32_t(number)));
-    if (!(drawn.pdf > 0)) return {};
-    const LightSample light = sample_along(search.pass.scene.environment, drawn.direction);
-    const float cosine = glm::dot(search.pass.landings[lane].normal, drawn.direction);
-    return {lane,
-            std::uint32_t(number),
-            drawn.direction,
-            weighted(search, lane, light, drawn.pdf),
-            cosine / (0.5f * search.by_cones[lane] * drawn.pdf),
-            counts_as_occluded(search.pass, light.radiance),
-            {}};
-}
-
-/// One half of the tries over the cones: whole numbers of them, whose sum over a pixel's rays is
-/// rounded up or down at random to the right mean.
-void try_cones(Search& search, const Half& half) {
-    const int most = (search.pass.settings.primary * search.change.counts.cones + 1) / 2;
-    for (std::size_t lane = 0; lane < packet_width; ++lane) {
-        if (search.cones[lane].empty()) continue;
-        SampleKey key = search.pass.keys[lane];
-        key.sample = 0;  // one rounding for all rays of the pixel
-        const float rounding = uniform(key, half.dimension);
-        const float before = search.pass.sums[lane].change.cone_tries;
-        const int end = int(before + 0.5f * search.by_cones[lane] + rounding);
-        const StratifiedSet points = shared_set(key, half.dimension, most);
-        for (int number = int(before + rounding); number < end; ++number)
-            follow_try(search, try_cone(search, lane, points, number), half.follow);
-    }
-    follow_rest(search, half.follow);
+    common.position /= float(std::max(1, count));
+    for (const Landings& landings : camera_rays)
+        if (is_real(landings[lane]))
+            common.reach = std::max(
+                common.reach, glm::distance(common.position, vicinity_of(landings[lane]).position));
+    return common;
 }
 
 /// Cones that would send this share of an even sky's irradiance, or more, get all tries: a change
@@ -242,6 +75,133 @@ constexpr float full_fill = 0.1f;
 /// Of all tries, at least: one for a pixel of 4 x 4 samples.
 constexpr float least_share = 1.0f / 16;
 
+/// A pixel's part of a half.
+struct HalfOfPixel {
+    Half& half;
+    StratifiedSet points;
+    float rounding = 0;  // one for all its rays
+};
+
+/// One pixel's search.
+struct PixelSearch {
+    PixelSearch(Search& s, std::size_t pixel)
+        : search(s), lane(pixel), surfaces(of_pixel(s.surfaces)), shadows(of_pixel(s.shadows)) {
+        const int tries = s.pass.settings.primary * s.counts.light;
+        run = s.pass.nets.run(key(), change_by_light,
+                              int(std::bit_ceil(unsigned(std::max(1, tries)))));
+    }
+    HalfOfPixel of_pixel(Half& half) const {
+        const int most = (search.pass.settings.primary * search.counts.cones + 1) / 2;
+        return {half, run_of(half.points, key().place, most), uniform(key(), half.dimension)};
+    }
+
+    Search& search;
+    std::size_t lane;
+    LightRun run;  // of its light tries
+    HalfOfPixel surfaces, shadows;
+    ChangeCones cones;
+    float by_cones = 0;  // tries over the cones, on average
+
+    const SampleKey& key() const { return search.pass.keys[lane]; }
+    ChangeSums& sums() const { return search.pass.sums[lane].change; }
+
+    void look_from(const Vicinity& place) {
+        find_cones(search.pass.scene.virtual_objects.bounds(), place.position, place.normal,
+                   place.reach, cones);
+        by_cones =
+            float(search.counts.cones) * std::clamp(cones.fill / full_fill, least_share, 1.0f);
+    }
+};
+
+/// A sample of the pixel's light, if virtual geometry may be seen there.
+void try_light(PixelSearch& pixel, const Landing& from, const LightSample& light) {
+    if (!(may_hold(pixel.cones, light.direction) && light.pdf > 0 &&
+          glm::dot(from.normal, light.direction) > 0))
+        return;
+    const float density = pdf_cones(pixel.cones, light.direction);
+    if (density == 0) return;
+    ChangeTry t;
+    t.from = &from;
+    t.sums = &pixel.sums();
+    t.direction = light.direction;
+    t.by_cones = pixel.by_cones * density;
+    t.light = light;
+    t.knows_light = true;
+    follow(pixel.search.shadows.rays, t, pixel.search.pass);
+}
+
+/// Eight samples of the pixel's light that stand together; most lie in no cone.
+void try_eight_lights(PixelSearch& pixel, const Landing& from, std::size_t first) {
+    const LightNets& nets = pixel.search.pass.nets;
+    const auto plane = [&](std::size_t axis) {
+        return Floats(&nets.direction[axis][first], stdx::element_aligned);
+    };
+    const Lanes held = may_hold(pixel.cones, Vectors{plane(0), plane(1), plane(2)});
+    if (stdx::none_of(held)) return;
+    for (std::size_t k = 0; k < lane_count; ++k)
+        if (held[k]) try_light(pixel, from, nets.samples[first + k]);
+}
+
+void try_lights(PixelSearch& pixel, const Landing& from, int ray) {
+    const LightNets& nets = pixel.search.pass.nets;
+    const int tries = pixel.search.counts.light;
+    const int begin = ray * tries;
+    if (tries % lane_count == 0 && nets.samples.size() >= lane_count) {
+        for (int n = begin; n < begin + tries; n += lane_count)
+            try_eight_lights(pixel, from, nets.first_of_eight(pixel.run, n));
+    } else {
+        for (int n = begin; n < begin + tries; ++n)
+            try_light(pixel, from, nets.at(pixel.run, n));
+    }
+}
+
+void try_cone(PixelSearch& pixel, const Landing& from, HalfOfPixel& part, int number) {
+    const DirectionSample drawn = sample_cones(pixel.cones, part.points.at(std::uint32_t(number)));
+    if (!(drawn.pdf > 0)) return;
+    ChangeTry t;
+    t.from = &from;
+    t.sums = &pixel.sums();
+    t.key = pixel.key();
+    t.key.sample = std::uint32_t(number);
+    t.direction = drawn.direction;
+    t.by_cones = pixel.by_cones * drawn.pdf;
+    follow(part.half.rays, t, pixel.search.pass);
+}
+
+/// One half of the tries over the cones: whole numbers of them, whose sum over a pixel's rays is
+/// rounded up or down at random to the right mean.
+void try_cones(PixelSearch& pixel, const Landing& from, HalfOfPixel& part) {
+    const float before = pixel.sums().cone_tries + part.rounding;
+    const int end = int(before + 0.5f * pixel.by_cones);
+    for (int number = int(before); number < end; ++number)
+        try_cone(pixel, from, part, number);
+}
+
+void search_pixel(PixelSearch& pixel) {
+    const Search& search = pixel.search;
+    const Vicinity common = common_vicinity(search.camera_rays, pixel.lane);
+    bool looked = false;
+    for (std::size_t p = 0; p < search.camera_rays.size(); ++p) {
+        const Landing& from = search.camera_rays[p][pixel.lane];
+        if (!is_real(from)) continue;
+        ++pixel.sums().camera_rays;
+        if (common.reach < 0)
+            pixel.look_from(vicinity_of(from));
+        else if (!std::exchange(looked, true))
+            pixel.look_from(common);
+        if (pixel.cones.empty()) continue;
+        try_lights(pixel, from, search.first_ray + int(p));
+        try_cones(pixel, from, pixel.surfaces);
+        if (search.counts.light > 0) try_cones(pixel, from, pixel.shadows);
+        pixel.sums().cone_tries += 0.5f * pixel.by_cones;
+    }
+}
+
+bool any_real(std::span<const Landings> camera_rays, std::size_t lane) {
+    return std::any_of(camera_rays.begin(), camera_rays.end(),
+                       [lane](const Landings& landings) { return is_real(landings[lane]); });
+}
+
 }  // namespace
 
 ChangeCounts change_counts(const TwoModeScene& scene, const SamplingSettings& settings) {
@@ -249,29 +209,15 @@ ChangeCounts change_counts(const TwoModeScene& scene, const SamplingSettings& se
     return {lit ? settings.light_tries * settings.secondary : 0, settings.secondary};
 }
 
-void add_change(const ChangePass& change) {
-    const SamplePass& pass = change.pass;
-    Search search(change);
-    const int run =
-        int(std::bit_ceil(unsigned(std::max(1, pass.settings.primary * change.counts.light))));
-    for (std::size_t i = 0; i < packet_width; ++i) {
-        search.cones[i].count = 0;
-        search.cones[i].hemisphere = 0;
-        const Landing& landing = pass.landings[i];
-        if (!is_real(landing)) continue;
-        ++change.pass.sums[i].change.camera_rays;
-        search.runs[i] = pass.nets.run(pass.keys[i], change_by_light, run);
-        const glm::vec3 start =
-            ray_origin(landing.position, landing.geometric_normal, landing.normal, surface_offset);
-        find_cones(pass.scene.virtual_objects.bounds(), start, landing.normal, search.cones[i]);
-        search.by_cones[i] = float(change.counts.cones) *
-                             std::clamp(search.cones[i].fill / full_fill, least_share, 1.0f);
+void add_changes(const TilePass& tile, std::span<const Landings> camera_rays, int first_ray) {
+    Search search(tile, camera_rays, first_ray);
+    for (std::size_t lane = 0; lane < packet_width; ++lane) {
+        if (!any_real(camera_rays, lane)) continue;
+        PixelSearch pixel(search, lane);
+        search_pixel(pixel);
     }
-    try_lights(search);
-    try_cones(search, {change_by_cones, surfaces});
-    if (change.counts.light > 0) try_cones(search, {change_by_cones_again, shadows});
-    for (std::size_t i = 0; i < packet_width; ++i)
-        if (!search.cones[i].empty()) pass.sums[i].change.cone_tries += 0.5f * search.by_cones[i];
+    follow_rest(search.shadows.rays, search.pass);
+    follow_rest(search.surfaces.rays, search.pass);
 }
 
 }  // namespace inlay

@@ -2,9 +2,9 @@
 // in which virtual geometry is nearest, and over nothing else.
 #pragma once
 
-#include "render/sample/light_nets.h"
-#include "render/trace/change_cones.h"
-#include "render/trace/sample_pass.h"
+#include "render/trace/tile_pass.h"
+
+#include <span>
 
 namespace inlay {
 
@@ -19,19 +19,15 @@ struct ChangeCounts {
 /// if it sends light.
 ChangeCounts change_counts(const TwoModeScene& scene, const SamplingSettings& settings);
 
-/// The samples of one camera ray of 16 pixels: `ray` counts those of the pixel before it.
-struct ChangePass {
-    SamplePass& pass;
-    ChangeCounts counts;
-    int ray = 0;
-};
-
 /// Samples of E_RV - E_R on real surfaces. A direction in which a virtual surface is nearest takes
 /// away the environment's light, or that of the real surface behind, and sends its own. Direct
 /// light takes both kinds of directions, each weighted by the density of both together (balance
 /// heuristic, Veach 1997), indirect light half of those over the cones. A direction outside all
 /// cones changes nothing and is not traced; real geometry is asked only where a ray meets virtual
 /// geometry.
-void add_change(const ChangePass& change);
+///
+/// `camera_rays` are where rays of a tile's pixels landed, at least one of each, of which
+/// `first_ray` is the number of the first.
+void add_changes(const TilePass& tile, std::span<const Landings> camera_rays, int first_ray);
 
 }  // namespace inlay

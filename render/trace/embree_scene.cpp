@@ -90,6 +90,15 @@ void fill(RTCRay16& ray, std::array<int, packet_width>& valid, const RayPacket& 
     }
 }
 
+/// An attribute of a triangle's vertices, between them.
+template <class Attribute>
+Attribute between(const std::vector<Attribute>& of_vertices, const glm::uvec3& triangle,
+                  const glm::vec2& barycentric) {
+    const float b1 = barycentric.x, b2 = barycentric.y, b0 = 1 - b1 - b2;
+    return b0 * of_vertices[triangle.x] + b1 * of_vertices[triangle.y] +
+           b2 * of_vertices[triangle.z];
+}
+
 RTCIntersectContext context_for(const RayPacket& packet) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -200,10 +209,7 @@ SurfacePoint EmbreeScene::surface_point(const SurfaceHit& hit, const glm::vec3& 
     }
     const TriangleMesh& mesh = *part.mesh;
     const glm::uvec3 t = mesh.triangles[hit.triangle];
-    const float b1 = hit.barycentric.x, b2 = hit.barycentric.y, b0 = 1 - b1 - b2;
-    const auto mix = [&](const auto& attribute) {
-        return b0 * attribute[t.x] + b1 * attribute[t.y] + b2 * attribute[t.z];
-    };
+    const auto mix = [&](const auto& attribute) { return between(attribute, t, hit.barycentric); };
     point.position = glm::vec3(part.world_from_local * glm::vec4(mix(mesh.positions), 1));
     const glm::vec3 face = glm::cross(mesh.positions[t.y] - mesh.positions[t.x],
                                       mesh.positions[t.z] - mesh.positions[t.x]);
@@ -214,8 +220,14 @@ SurfacePoint EmbreeScene::surface_point(const SurfaceHit& hit, const glm::vec3& 
         if (glm::dot(n, n) > 0) point.shading_normal = glm::normalize(n);
     }
     if (!mesh.texture_coordinates.empty()) point.uv = mix(mesh.texture_coordinates);
-    if (!mesh.colors.empty()) point.vertex_color = mix(mesh.colors);
+    point.vertex_color = vertex_color(hit);
     return point;
+}
+
+Rgb EmbreeScene::vertex_color(const SurfaceHit& hit) const {
+    const TriangleMesh* mesh = parts_[hit.part].mesh.get();
+    if (!mesh || mesh->colors.empty()) return Rgb(0);
+    return between(mesh->colors, mesh->triangles[hit.triangle], hit.barycentric);
 }
 
 EmbreeSceneCache::EmbreeSceneCache() : structures_(std::make_unique<Structures>()) {

@@ -92,6 +92,7 @@ public:
 
     SurfacePoint surface_point(const SurfaceHit& hit, const glm::vec3& origin,
                                const glm::vec3& direction) const;
+    Rgb vertex_color(const SurfaceHit& hit) const;  // of surface_point() there, for itself
 
     /// Writes down all that is asked from now on; null: no more.
     void log_to(RayLog* log) { log_ = log; }

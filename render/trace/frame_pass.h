@@ -53,9 +53,8 @@ void FramePass::over_lanes(const Image<std::uint8_t>& chosen, bool all, const Bo
             const PixelTile area = tile_at(scene.lens, column, row);
             const std::uint32_t lanes = lanes_of(area, chosen);
             if (!all && lanes == 0) continue;
-            Tile tile;
-            tile.area = area;
-            body(TilePass{scene, settings, nets, frame, tile}, lanes);
+            Tile tile = make_tile(area, scene.lens, settings, frame);
+            body(TilePass{scene, settings, nets, tile}, lanes);
             row_rays[std::size_t(row)] += tile.rays;
             for_each_lane(tile, [&](std::size_t lane, const PixelSums& sums) {
                 if (!all && !((lanes >> lane) & 1U)) return;

@@ -59,8 +59,7 @@ DirectRays direct_rays(const SamplePass& pass) {
         const Landing& from = pass.landings[i];
         if (from.kind == LandingKind::nothing) continue;
         LightSample& light = result.lights[i];
-        light = light_sample(pass, pass.keys[i], light_direction,
-                             light_samples_on(from.kind, pass.settings));
+        light = light_sample(pass, i, from.kind, light_samples_on(from.kind, pass.settings));
         if (light.pdf > 0 && glm::dot(from.normal, light.direction) > 0)
             result.rays.set(lane, from, light.direction, pass.scene.real.offset);
     }
@@ -69,11 +68,12 @@ DirectRays direct_rays(const SamplePass& pass) {
 
 RayPair diffuse_rays(const SamplePass& pass) {
     RayPair rays;
+    const StratifiedSet points = frame_set(pass.keys[0], diffuse_lobe);
     for (int lane = 0; lane < packet_width; ++lane) {
         const Landing& from = pass.landings[std::size_t(lane)];
         if (from.kind == LandingKind::nothing) continue;
-        const glm::vec2 u = shared_pair(pass.keys[std::size_t(lane)], diffuse_lobe,
-                                        light_samples_on(from.kind, pass.settings));
+        const glm::vec2 u = point_of(points, pass.keys[std::size_t(lane)],
+                                     light_samples_on(from.kind, pass.settings));
         rays.set(lane, from, basis_about(from.normal) * sample_cosine_hemisphere(u).direction,
                  pass.scene.real.offset);
     }
@@ -128,13 +128,14 @@ void add_indirect(SamplePass& pass) {
 void add_glossy(SamplePass& pass) {
     std::array<DirectionSample, packet_width> lobe;
     RayPair rays;
+    const StratifiedSet points = frame_set(pass.keys[0], glossy_lobe);
     for (int lane = 0; lane < packet_width; ++lane) {
         const auto i = std::size_t(lane);
         const Landing& from = pass.landings[i];
         if (from.kind != LandingKind::on_virtual || !from.bsdf.glossy) continue;
         lobe[i] = sample_glossy(
             from.bsdf, from.frame,
-            shared_pair(pass.keys[i], glossy_lobe, light_samples_on(from.kind, pass.settings)));
+            point_of(points, pass.keys[i], light_samples_on(from.kind, pass.settings)));
         if (lobe[i].pdf > 0) rays.set(lane, from, lobe[i].direction, pass.scene.real.offset);
     }
     const Bounce light_back = rays.against_virtual.active != 0 ? bounce(pass, rays) : Bounce{};

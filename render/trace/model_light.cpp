@@ -57,6 +57,7 @@ GatheringCost gather(ModelLight& light, const PacketOfNeed& which) {
     const std::size_t first = which.packet * packet_width;
     std::array<PixelSums, packet_width> sums;
     SampleKeys keys;
+    LightRuns runs;
     LaneCounts counts;
     counts.fill(gathered.samples);
     for (std::size_t lane = 0; lane < packet_width; ++lane)
@@ -65,7 +66,7 @@ GatheringCost gather(ModelLight& light, const PacketOfNeed& which) {
     for (int s = 0; s < gathered.samples; ++s) {
         for (SampleKey& key : keys)
             key.sample = std::uint32_t(s);
-        SamplePass pass{scene, light.settings, landings, keys, sums, cost.rays, light.nets};
+        SamplePass pass{scene, light.settings, landings, keys, sums, cost.rays, light.nets, runs};
         add_real_light(pass, counts);
     }
     for (std::size_t lane = 0; lane < packet_width; ++lane) {

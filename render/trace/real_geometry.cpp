@@ -17,10 +17,10 @@ DistancePacket distances_of(const HitPacket& hits) {
 }
 
 /// Radiance that the photograph shows at a world point, if it sees it.
-std::optional<Rgb> photographed(const PhotographedSurface& seen, const glm::vec3& world,
-                                float tolerance) {
+std::optional<Rgb> photographed(const PhotographedSurface& seen, const Pose& camera_from_world,
+                                const glm::vec3& world, float tolerance) {
     const SurfaceMap& map = seen.surface;
-    const glm::dvec3 p = inverse(map.world_from_camera) * glm::dvec3(world);
+    const glm::dvec3 p = camera_from_world * glm::dvec3(world);
     if (!(p.z > 0)) return std::nullopt;
     const auto pixel = nearest_pixel(map.lens, project(map.lens, p));
     if (!pixel || !map.has_surface(pixel->x, pixel->y)) return std::nullopt;
@@ -83,9 +83,7 @@ RealGeometry mesh_alone(const EmbreeScene& mesh, float offset) {
         const HitPacket hits = mesh.intersect(rays);
         RealHits result{distances_of(hits), {}};
         for (std::size_t i = 0; i < packet_width; ++i)
-            if (hits[i].hit())
-                result.radiance[i] =
-                    mesh.surface_point(hits[i], rays.origin[i], rays.direction[i]).vertex_color;
+            if (hits[i].hit()) result.radiance[i] = mesh.vertex_color(hits[i]);
         return result;
     };
     return real;
@@ -97,17 +95,16 @@ RealGeometry mesh_real_geometry(const PhotographedSurface& seen, const EmbreeSce
     real.primary = [&map = seen.surface](const RayPacket& rays, const auto& pixels) {
         return map_primary(map, rays, pixels);
     };
-    real.radiances = [seen, &mesh, visibility_tolerance](const RayPacket& rays, const SampleKeys&) {
+    real.radiances = [seen, &mesh, visibility_tolerance,
+                      camera_from_world = inverse(seen.surface.world_from_camera)](
+                         const RayPacket& rays, const SampleKeys&) {
         const HitPacket hits = mesh.intersect(rays);
         RealHits result{distances_of(hits), {}};
         for (std::size_t i = 0; i < packet_width; ++i) {
             if (!hits[i].hit()) continue;
-            const glm::vec3& origin = rays.origin[i];
-            const glm::vec3& direction = rays.direction[i];
-            const auto photo =
-                photographed(seen, origin + hits[i].distance * direction, visibility_tolerance);
-            result.radiance[i] =
-                photo ? *photo : mesh.surface_point(hits[i], origin, direction).vertex_color;
+            const glm::vec3 at = rays.origin[i] + hits[i].distance * rays.direction[i];
+            const auto photo = photographed(seen, camera_from_world, at, visibility_tolerance);
+            result.radiance[i] = photo ? *photo : mesh.vertex_color(hits[i]);
         }
         return result;
     };

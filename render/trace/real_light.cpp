@@ -22,7 +22,7 @@ void add_real_direct(SamplePass& pass, const LaneCounts& counts) {
         const auto i = std::size_t(lane);
         const Landing& from = pass.landings[i];
         if (!is_real(from)) continue;
-        lights[i] = light_sample(pass, pass.keys[i], light_direction, counts[i]);
+        lights[i] = light_sample(pass, i, LandingKind::real, counts[i]);
         if (lights[i].pdf > 0 && glm::dot(from.normal, lights[i].direction) > 0)
             rays.set(lane, from, lights[i].direction, pass.scene.real.offset);
     }
@@ -53,11 +53,12 @@ void add_real_direct(SamplePass& pass, const LaneCounts& counts) {
 /// above.
 void add_real_indirect(SamplePass& pass, const LaneCounts& counts) {
     RayPair rays;
+    const StratifiedSet points = frame_set(pass.keys[0], diffuse_lobe);
     for (int lane = 0; lane < packet_width; ++lane) {
         const auto i = std::size_t(lane);
         const Landing& from = pass.landings[i];
         if (!is_real(from)) continue;
-        const glm::vec2 u = shared_pair(pass.keys[i], diffuse_lobe, counts[i]);
+        const glm::vec2 u = point_of(points, pass.keys[i], counts[i]);
         rays.set(lane, from, basis_about(from.normal) * sample_cosine_hemisphere(u).direction,
                  pass.scene.real.offset);
     }

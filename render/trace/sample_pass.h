@@ -27,6 +27,16 @@ enum SampleDimension : std::uint32_t {
     first_path_dimension = 64  // of the path tracer behind exact real geometry
 };
 
+/// The runs of environment samples that a tile's pixels take on one kind of surface, each found
+/// when it is first asked for.
+struct LaneRuns {
+    std::array<LightRun, packet_width> run{};
+    std::uint32_t found = 0;  // lanes
+};
+struct LightRuns {
+    LaneRuns real, on_virtual;
+};
+
 struct SamplePass {
     const TwoModeScene& scene;
     const SamplingSettings& settings;
@@ -35,6 +45,7 @@ struct SamplePass {
     std::array<PixelSums, packet_width>& sums;
     RayCounts& rays;
     const LightNets& nets;  // the frame's environment samples
+    LightRuns& runs;        // of them, of the tile's pixels
 };
 
 /// Environment samples that a pixel takes on one kind of surface, if both modes share them.
@@ -42,11 +53,28 @@ inline int light_samples_on(LandingKind kind, const SamplingSettings& s) {
     return s.primary * s.secondary * (kind == LandingKind::on_virtual ? s.virtual_repeats : 1);
 }
 
-/// Sample `key.sample` of the `count` environment samples that a pixel takes for one purpose.
-inline const LightSample& light_sample(const SamplePass& pass, const SampleKey& key,
-                                       std::uint32_t dimension, int count) {
-    const int length = int(std::bit_ceil(unsigned(count)));
-    return pass.nets.at(pass.nets.run(key, dimension, length), int(key.sample));
+/// The run of `count` environment samples that a pixel takes for one purpose.
+inline LightRun light_run(const SamplePass& pass, const SampleKey& key, std::uint32_t dimension,
+                          int count) {
+    return pass.nets.run(key, dimension, int(std::bit_ceil(unsigned(count))));
+}
+
+/// The environment sample of a lane that landed on `kind`, of the `count` that its pixel takes
+/// there: as many in every call of a tile.
+inline const LightSample& light_sample(const SamplePass& pass, std::size_t lane, LandingKind kind,
+                                       int count) {
+    LaneRuns& runs = kind == LandingKind::on_virtual ? pass.runs.on_virtual : pass.runs.real;
+    const SampleKey& key = pass.keys[lane];
+    if (!((runs.found >> lane) & 1U)) {
+        runs.run[lane] = light_run(pass, key, light_direction, count);
+        runs.found |= 1U << lane;
+    }
+    return pass.nets.at(runs.run[lane], int(key.sample));
+}
+
+/// Point `key.sample` of the `count` that a pixel takes from its frame's set.
+inline glm::vec2 point_of(const StratifiedSet& frame_set, const SampleKey& key, int count) {
+    return run_of(frame_set, key.place, count).at(key.sample);
 }
 
 /// Whether light is bright enough for what blocks it to narrow the filter.

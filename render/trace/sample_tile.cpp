@@ -4,6 +4,8 @@
 #include "render/trace/light_estimators.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 namespace inlay {
 namespace {
@@ -34,20 +36,21 @@ void add_samples(const TilePass& pass, const Landings& landings, int first_sampl
     }
 }
 
-/// Light samples of what one camera ray of each pixel met, but for E_R where it is sampled for
-/// itself. Each ray takes the sample numbers that follow those of the ray before it, so that a
-/// pixel's samples are spread as one sequence.
-void gather_light(const TilePass& pass, const Landings& landings, int ray) {
-    const int first_sample = ray * pass.settings.secondary;
-    if (pass.settings.estimator == Estimator::two_mode) {
-        add_samples(pass, landings, first_sample);
-        return;
+/// Light samples of what camera rays of each pixel met, but for E_R where it is sampled for itself.
+/// Each ray takes the sample numbers that follow those of the ray before it, so that a pixel's
+/// samples are spread as one sequence.
+void gather_light(const TilePass& pass, std::span<const Landings> camera_rays, int first_ray) {
+    const bool both_modes = pass.settings.estimator == Estimator::two_mode;
+    if (!both_modes) add_changes(pass, camera_rays, first_ray);
+    for (const Landings& landings : camera_rays) {
+        const int first_sample = first_ray++ * pass.settings.secondary;
+        const Landings lit = both_modes ? landings : only(LandingKind::on_virtual, landings);
+        if (both_modes || any_landing(lit)) add_samples(pass, lit, first_sample);
     }
-    SamplePass sample = pass.from(landings, pass.keys(ray));
-    add_change({sample, change_counts(pass.scene, pass.settings), ray});
-    const Landings on_virtual = only(LandingKind::on_virtual, landings);
-    if (any_landing(on_virtual)) add_samples(pass, on_virtual, first_sample);
 }
+
+/// Camera rays of a pixel whose light is gathered together.
+constexpr int rays_at_once = 4;
 
 bool sees_virtual(const Tile& tile) {
     return std::any_of(tile.sums.begin(), tile.sums.end(),
@@ -88,7 +91,7 @@ void refine(const TilePass& pass, std::uint32_t needed) {
         if (any_landing(on_virtual)) add_samples(pass, on_virtual, p * settings.secondary);
     }
     for (const Landings& missed : {where_needed(missed_real, needed), missed_virtual})
-        if (any_landing(missed)) gather_light(pass, missed, lit);
+        if (any_landing(missed)) gather_light(pass, {&missed, 1}, lit);
 }
 
 }  // namespace
@@ -106,13 +109,18 @@ int largest_net_use(const TwoModeScene& scene, const SamplingSettings& settings)
 }
 
 void sample_tile(const TilePass& pass, std::uint32_t needed) {
-    for (int p = 0; p < pass.settings.primary; ++p) {
-        const Landings landings = pass.land_at(p);
-        for_each_lane(pass.tile, [&](std::size_t lane, PixelSums& sums) {
-            look(landings[lane], sums);
-            if (landings[lane].kind != LandingKind::nothing) receive(landings[lane], sums);
-        });
-        gather_light(pass, where_needed(landings, needed), p);
+    std::array<Landings, rays_at_once> camera_rays;
+    for (int first = 0; first < pass.settings.primary; first += rays_at_once) {
+        const int count = std::min(rays_at_once, pass.settings.primary - first);
+        for (int k = 0; k < count; ++k) {
+            const Landings landings = pass.land_at(first + k);
+            for_each_lane(pass.tile, [&](std::size_t lane, PixelSums& sums) {
+                look(landings[lane], sums);
+                if (landings[lane].kind != LandingKind::nothing) receive(landings[lane], sums);
+            });
+            camera_rays[std::size_t(k)] = where_needed(landings, needed);
+        }
+        gather_light(pass, {camera_rays.data(), std::size_t(count)}, first);
     }
     if (sees_virtual(pass.tile)) refine(pass, needed);
 }

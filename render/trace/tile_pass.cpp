@@ -12,17 +12,17 @@ std::uint32_t scattered_place(std::uint32_t pixel) { return hash(pixel) >> 8; }
 }  // namespace
 
 SampleKeys TilePass::keys(int sample) const {
-    SampleKeys keys =
-        sample_keys(tile.area, scene.lens, {settings.seed, frame, 0, std::uint32_t(sample), 0});
-    if (!settings.spread)
-        for (SampleKey& key : keys)
-            key.place = scattered_place(key.pixel);
+    SampleKeys keys = tile.keys;
+    for (SampleKey& key : keys)
+        key.sample = std::uint32_t(sample);
     return keys;
 }
 
 Landings TilePass::land_at(int sample, std::uint32_t lanes) const {
-    RayPacket rays = camera_rays(tile.area, scene.lens, scene.world_from_camera,
-                                 pixel_shifts(keys(sample), position_in_pixel));
+    std::array<glm::vec2, packet_width> shifts;
+    for (std::size_t i = 0; i < packet_width; ++i)
+        shifts[i] = tile.in_pixel[i].at(std::uint32_t(sample)) - glm::vec2(0.5f);
+    RayPacket rays = camera_rays(tile.area, scene.lens, scene.world_from_camera, shifts);
     rays.active &= lanes;
     tile.rays.primary += std::uint64_t(std::popcount(rays.active));
     static const EmbreeScene none;
@@ -31,7 +31,20 @@ Landings TilePass::land_at(int sample, std::uint32_t lanes) const {
 }
 
 SamplePass TilePass::from(const Landings& landings, const SampleKeys& at) const {
-    return {scene, settings, landings, at, tile.sums, tile.rays, nets};
+    return {scene, settings, landings, at, tile.sums, tile.rays, nets, tile.runs};
+}
+
+Tile make_tile(const PixelTile& area, const Lens& lens, const SamplingSettings& settings,
+               std::uint32_t frame) {
+    Tile tile;
+    tile.area = area;
+    tile.keys = sample_keys(area, lens, {settings.seed, frame, 0, 0, 0});
+    if (!settings.spread)
+        for (SampleKey& key : tile.keys)
+            key.place = scattered_place(key.pixel);
+    for (std::size_t i = 0; i < packet_width; ++i)
+        tile.in_pixel[i] = stratified_set(tile.keys[i], position_in_pixel);
+    return tile;
 }
 
 std::uint32_t lanes_of(const PixelTile& area, const Image<std::uint8_t>& chosen) {

@@ -6,19 +6,21 @@
 
 namespace inlay {
 
-/// What a tile's samples add up to.
+/// A tile's random numbers, and what its samples add up to.
 struct Tile {
     PixelTile area;
+    SampleKeys keys;                                   // of its pixels' samples 0
+    std::array<StratifiedSet, packet_width> in_pixel;  // where their camera rays pass
+    LightRuns runs;
     std::array<PixelSums, packet_width> sums;
     RayCounts rays;
 };
 
-/// The random numbers and rays of one tile.
+/// Sampling of one tile.
 struct TilePass {
     const TwoModeScene& scene;
     const SamplingSettings& settings;
     const LightNets& nets;
-    std::uint32_t frame;
     Tile& tile;
 
     SampleKeys keys(int sample) const;
@@ -30,6 +32,10 @@ struct TilePass {
     /// One sample from `landings`, which must outlive it.
     SamplePass from(const Landings& landings, const SampleKeys& keys) const;
 };
+
+/// A tile of the frame before its first sample.
+Tile make_tile(const PixelTile& area, const Lens& lens, const SamplingSettings& settings,
+               std::uint32_t frame);
 
 /// body(lane, sums) for each pixel of the tile that lies in the image.
 template <class Body>

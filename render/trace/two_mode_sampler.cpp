@@ -19,10 +19,10 @@ bool touched_all_over(const FramePass& pass) {
     int asked = 0, touched = 0;
     for (int row = step / 2; row < tile_rows(pass.scene.lens); row += step) {
         for (int column = step / 2; column < tile_columns(pass.scene.lens); column += step) {
-            Tile tile;
-            tile.area = tile_at(pass.scene.lens, column, row);
+            Tile tile = make_tile(tile_at(pass.scene.lens, column, row), pass.scene.lens,
+                                  pass.settings, pass.frame);
             ++asked;
-            touched += touched_lanes({pass.scene, pass.settings, pass.nets, pass.frame, tile}) != 0;
+            touched += touched_lanes({pass.scene, pass.settings, pass.nets, tile}) != 0;
             pass.result.rays += tile.rays;
         }
     }

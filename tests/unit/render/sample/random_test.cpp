@@ -51,7 +51,8 @@ TEST(SharedPair, NeighborsAreSpreadTogether) {
                 for (std::uint32_t p = 0; p < pixels; ++p) {
                     for (int i = 0; i < per_pixel; ++i) {
                         const SampleKey key{1, 2, 900 + p, std::uint32_t(i), 5 * pixels + p};
-                        const glm::vec2 u = shared_pair(key, 3, per_pixel);
+                        const glm::vec2 u =
+                            run_of(frame_set(key, 3), key.place, per_pixel).at(key.sample);
                         cells.insert(int(u.y * float(points / columns)) * columns +
                                      int(u.x * float(columns)));
                     }

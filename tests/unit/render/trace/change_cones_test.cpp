@@ -17,7 +17,7 @@ const glm::vec3 up(0, 1, 0);
 
 ChangeCones cones_of(const std::vector<BoundingSphere>& spheres) {
     ChangeCones cones;
-    find_cones(spheres, glm::vec3(0), up, cones);
+    find_cones(spheres, glm::vec3(0), up, 0, cones);
     return cones;
 }
 
