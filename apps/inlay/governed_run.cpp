@@ -100,8 +100,7 @@ std::optional<GovernedFrame> note_choice(GovernedRun& run, Session& session, con
 void learn_from(GovernedRun& run, Session& session, const RgbdFrame& frame, const OutputFrame& out,
                 const FrameReport& report) {
     if (!has_goal(run) || !shows_anything(out)) return;
-    const double sampling_ms = out.ms.trace + out.ms.filter;
-    const double other_ms = report.ms.total - sampling_ms;
+    const double other_ms = report.ms.total - out.ms.trace - out.ms.filter;
     if (!run.governor) {
         spdlog::info("frame {}: measuring what samples cost on this machine", frame.index);
         PriceFront front = measure_front({session, frame, out});
@@ -112,7 +111,7 @@ void learn_from(GovernedRun& run, Session& session, const RgbdFrame& frame, cons
         return;
     }
     if (!run.now) return;
-    Reached reached{sampling_ms, other_ms, run.extracts, {}};
+    Reached reached{price_of_samples(out), other_ms, run.extracts, {}};
     if (report.governor && report.governor->estimated_error)
         reached.error =
             *report.governor->estimated_error / error_at(run.governor->front, run.now->samples);

@@ -68,6 +68,11 @@ bool shows_anything(const OutputFrame& out) {
     return out.real && out.composite.influenced_pixels > 0;
 }
 
+double price_of_samples(const OutputFrame& out) {
+    const bool for_later = 10 * out.gathering.total() > out.rays.total();
+    return for_later ? 0 : out.ms.trace + out.ms.filter;
+}
+
 PriceFront measure_front(const FrameAtHand& f) {
     PriceFront front;
     if (!shows_anything(f.out)) return front;

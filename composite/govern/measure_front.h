@@ -18,6 +18,10 @@ struct FrameAtHand {
 /// Whether virtual objects change a pixel of a frame that was composited.
 bool shows_anything(const OutputFrame& out);
 
+/// What the frame's samples took (ms, tracing and filtering); 0 where it also gathered light for
+/// later frames, by more than a tenth of its rays: that is no price of samples.
+double price_of_samples(const OutputFrame& out);
+
 /// Samples the frame with 4 to 64 samples per pixel, one after the other, and estimates each
 /// picture's error from two raw pictures (see estimate_error). Time and error are those of a frame
 /// without the one before it. No point where nothing virtual shows in the frame; other_ms is left

@@ -125,7 +125,8 @@ OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work) {
         TwoModeResult sampled = sample(session, *out.real, frame, out.plan, settings.trace,
                                        demand_of(settings, previous.get()));
         out.rays = sampled.rays;
-        out.rays += sampled.gathering;
+        out.gathering = sampled.gathering;
+        out.rays += out.gathering;
         out.dropped_samples = sampled.layers.dropped_samples;
         session.previous = std::make_shared<const NoisyLayers>(std::move(sampled.layers));
         out.ms.trace = watch.lap();

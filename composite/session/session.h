@@ -65,7 +65,8 @@ struct OutputFrame {
     Layers layers;
     Image<Rgb> camera;  // the photograph, linear, at the reference exposure
     Rgb exposure{1};    // of the photograph, relative to that
-    RayCounts rays;     // with those for light on the model that later frames find there
+    RayCounts rays;
+    RayCounts gathering;  // of them, for light on the model that later frames find there
     std::uint64_t dropped_samples = 0;  // non-finite ones, left out of every mean
     StageTimes ms;
 };

@@ -11,6 +11,9 @@ struct RayCounts {
     std::uint64_t primary = 0, virtual_shadow = 0, virtual_indirect = 0, real_shadow = 0,
                   real_indirect = 0;
 
+    std::uint64_t total() const {
+        return primary + virtual_shadow + virtual_indirect + real_shadow + real_indirect;
+    }
     RayCounts& operator+=(const RayCounts& more) {
         primary += more.primary;
         virtual_shadow += more.virtual_shadow;

@@ -1,6 +1,7 @@
 // The governor against machines and scenes whose prices are known and unlike the front's.
 #include "composite/govern/governor.h"
 
+#include "composite/govern/measure_front.h"
 #include "recordings/base/check.h"
 #include "recordings/base/random.h"
 
@@ -114,6 +115,19 @@ TEST(Governor, AFrameWithoutVirtualObjectsTeachesNoPrice) {
     Governor governor = start_governor(by_time(200), front);
     learn(governor, choose(governor), {0, 40, false, {}});
     EXPECT_EQ(governor.time_factor, 1);
+}
+
+/// The first frame that sees a model gathers light for all that follow.
+TEST(Governor, LightForLaterFramesIsNoPriceOfSamples) {
+    OutputFrame out;
+    out.ms.trace = 300;
+    out.ms.filter = 20;
+    out.rays.real_indirect = 1000;
+    EXPECT_EQ(price_of_samples(out), 320);
+    out.gathering.real_indirect = 50;
+    EXPECT_EQ(price_of_samples(out), 320);
+    out.gathering.real_indirect = 800;
+    EXPECT_EQ(price_of_samples(out), 0);
 }
 
 }  // namespace
