@@ -48,7 +48,7 @@ struct Subject {
     }
 };
 
-/// The thesis's samples, and no more of them on virtual surfaces.
+/// As many samples on virtual surfaces as on real ones, as the thesis has.
 SamplingSettings one_for_one(SamplingSettings sampling) {
     sampling.coverage = 0;
     sampling.virtual_repeats = 1;

@@ -95,6 +95,7 @@ EffectPlan plan_of(const Session& session, const RecordingInfo& info,
     SceneFacts facts = gather_facts(in_frame(session, view, first, next));
     facts.tracked = pose.has_value();
     facts.first_frame = info.times.size() == 1;
+    facts.light_kept = keeps_light(session);
     facts.requests = requests;
     return plan_effects(facts, session.settings.trace, session.settings.filter);
 }

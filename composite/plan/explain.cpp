@@ -70,6 +70,10 @@ std::string explain(const EffectPlan& plan) {
         facts.objects.size() == 1 ? "" : "s", objects_in_view(facts), facts.lit ? "lit" : "dark");
     for (const ObjectFacts& object : facts.objects)
         text += object_text(object);
+    if (facts.light_kept && plan.has("environment_indirect"))
+        text +=
+            "light on real surfaces alone is kept on the model: what its samples cost below, "
+            "frames pay where they are the first to see a surface\n";
     for (const PlannedEffect& e : plan.effects)
         text += effect_text(e);
     for (const PlannedEffect& e : plan.effects)

@@ -35,6 +35,7 @@ struct SceneFacts {
     bool lit = false;                  // the environment sends light
     bool tracked = true;               // the camera's pose is known
     bool first_frame = false;          // there is no frame before to filter with
+    bool light_kept = false;           // E_R is read from the model where frames before gathered it
     SceneRequests requests;            // what the scene asks for beyond surfaces and environment
 };
 
@@ -52,7 +53,8 @@ struct SceneInFrame {
     double farthest = std::numeric_limits<double>::infinity(), offset = 0;
 };
 
-/// Measures the virtual objects; `tracked`, `first_frame` and `requests` are left to the caller.
+/// Measures the virtual objects; `tracked`, `first_frame`, `light_kept` and `requests` are left to
+/// the caller.
 SceneFacts gather_facts(const SceneInFrame& frame);
 
 /// Whether a virtual object stands elsewhere at `time` than at `time_before` (s).

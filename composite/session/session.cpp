@@ -32,6 +32,12 @@ const VoxelVolume& volume_of(const Session& session) {
     return session.known ? session.known->volume : session.slam.volume;
 }
 
+bool keeps_light(const Session& session) {
+    const Settings& settings = session.settings;
+    return session.known && settings.geometry.kind == RealGeometryKind::model &&
+           takes_model_light(settings.trace);
+}
+
 SceneInFrame in_frame(const Session& session, const SlamStep& view, double time,
                       double time_before) {
     SceneInFrame in{
@@ -64,13 +70,11 @@ Session start_session(const Settings& settings, VirtualScene scene, EnvironmentM
 
 namespace {
 
-/// E_R as it is known of the finished model; null where it is not kept: a model that still grows is
-/// made anew too often.
+/// E_R as it is known of the model; null where it is not kept.
 ModelLight* kept_light(Session& session, const RealScene& real, const EnvironmentSampler& light) {
-    const Settings& settings = session.settings;
-    if (!session.known || settings.geometry.kind != RealGeometryKind::model) return nullptr;
-    return keep_model_light(session.model_light, real.mesh, light, settings.trace,
-                            settings.geometry.offset);
+    if (!keeps_light(session)) return nullptr;
+    return keep_model_light(session.model_light, real.mesh, light, session.settings.trace,
+                            session.settings.geometry.offset);
 }
 
 }  // namespace
@@ -112,6 +116,7 @@ OutputFrame advance(Session& session, const RgbdFrame& frame, FrameWork work) {
     session.time_before = frame.time;
     facts.tracked = slam.tracking.status != TrackingStatus::lost;
     facts.first_frame = !previous;
+    facts.light_kept = keeps_light(session);
     out.plan = plan_effects(facts, settings.trace, settings.filter);
     out.exposure = slam.gain;
     Photo photo = linearise(frame.color, out.exposure);

@@ -43,6 +43,9 @@ Session start_session(const Settings& settings, VirtualScene scene, EnvironmentM
 /// The model that frames are composited on.
 const VoxelVolume& volume_of(const Session& session);
 
+/// Whether E_R is kept on the model; one that still grows is made anew too often.
+bool keeps_light(const Session& session);
+
 /// What a plan looks at: the scene at `time` (s), with `time_before` that of the frame before, from
 /// where `view` has its lens and its pose, and with its gain. References must outlive the result.
 SceneInFrame in_frame(const Session& session, const SlamStep& view, double time,

@@ -74,7 +74,7 @@ constexpr float anywhere = 2;
 /// Sets the cone that holds all circular ones, which are padded.
 void enclose(ChangeCones& cones) {
     const auto count = std::size_t(cones.count);
-    cones.reach = anywhere;
+    cones.middle_height = anywhere;
     cones.middle = glm::vec3(0);
     if (count == 0 || cones.hemisphere > 0) return;
     for (std::size_t i = 0; i < count; ++i)
@@ -96,7 +96,7 @@ void enclose(ChangeCones& cones) {
         least = (height >= 0.0f).select(least.min(cosine), least);
     }
     const float furthest = least.minCoeff();
-    if (furthest > -1) cones.reach = (1 - furthest) * rounding_margin + 1e-6f;
+    if (furthest > -1) cones.middle_height = (1 - furthest) * rounding_margin + 1e-6f;
 }
 
 }  // namespace

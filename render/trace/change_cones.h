@@ -29,8 +29,8 @@ struct ChangeCones {
     std::array<float, most_change_cones> density;  // per steradian, of all samples together
     std::array<float, most_change_cones> below;    // share of the samples in those before
 
-    glm::vec3 middle{0.0f};  // unit: axis of a cone that holds all of them
-    float reach = 0;         // 1 - cosine of its half angle; 2: every direction may be in one
+    glm::vec3 middle{0.0f};   // unit: axis of a cone that holds all of them
+    float middle_height = 0;  // 1 - cosine of its half angle; 2: every direction may be in one
 
     bool empty() const { return count == 0 && hemisphere == 0; }
 };
@@ -45,14 +45,14 @@ void find_cones(std::span<const BoundingSphere> spheres, const glm::vec3& positi
 /// Whether a unit direction can have a density at all: asked first, since most have none.
 inline bool may_hold(const ChangeCones& cones, const glm::vec3& direction) {
     const glm::vec3 apart = direction - cones.middle;
-    return 0.5f * glm::dot(apart, apart) <= cones.reach;
+    return 0.5f * glm::dot(apart, apart) <= cones.middle_height;
 }
 
 /// The same of eight directions.
 inline Lanes may_hold(const ChangeCones& cones, const Vectors& directions) {
     const Floats x = directions.x - cones.middle.x, y = directions.y - cones.middle.y,
                  z = directions.z - cones.middle.z;
-    return 0.5f * (x * x + y * y + z * z) <= cones.reach;
+    return 0.5f * (x * x + y * y + z * z) <= cones.middle_height;
 }
 
 /// A direction for `u` in [0, 1) x [0, 1); pdf 0 without cones. It may lie below the horizon.

@@ -4,8 +4,9 @@
 #include "render/trace/change_rays.h"
 
 #include <algorithm>
-#include <bit>
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace inlay {
 namespace {
@@ -19,6 +20,14 @@ struct Half {
     StratifiedSet points;       // of all pixels
 };
 
+/// A quarter of the smallest bound: its cone grows by half at most.
+float largest_shared_reach(const std::vector<BoundingSphere>& bounds) {
+    float smallest = 0;
+    for (const BoundingSphere& sphere : bounds)
+        if (smallest == 0 || sphere.radius < smallest) smallest = sphere.radius;
+    return smallest / 4;
+}
+
 /// What all pixels of a tile share.
 struct Search {
     Search(const TilePass& tile, std::span<const Landings> landings, int ray)
@@ -27,7 +36,8 @@ struct Search {
           first_ray(ray),
           pass(tile.from(landings[0], tile.keys(0))),
           surfaces(half(ChangeKind::surfaces, change_by_cones)),
-          shadows(half(ChangeKind::shadows, change_by_cones_again)) {}
+          shadows(half(ChangeKind::shadows, change_by_cones_again)),
+          shared_reach(largest_shared_reach(tile.scene.virtual_objects.bounds())) {}
     Half half(ChangeKind kind, SampleDimension dimension) const {
         return {{kind, counts.light}, dimension, frame_set(pass.keys[0], dimension)};
     }
@@ -35,11 +45,12 @@ struct Search {
     ChangeCounts counts;
     std::span<const Landings> camera_rays;
     int first_ray;
-    SamplePass pass;
+    SamplePass pass;  // of the first of them
     Half surfaces, shadows;
+    float shared_reach;  // m: from points this close to each other bounds look nearly alike
 };
 
-/// Points on one surface that see nearly the same of what surrounds them.
+/// Points on one surface, and the smallest ball about them.
 struct Vicinity {
     glm::vec3 position{0.0f}, normal{0.0f};
     float reach = 0;  // m, of the points about `position`
@@ -50,23 +61,25 @@ Vicinity vicinity_of(const Landing& landing) {
             landing.normal, 0};
 }
 
-/// Of all camera rays of a pixel that land on one plane. Nothing (reach < 0) where they do not.
-Vicinity common_vicinity(std::span<const Landings> camera_rays, std::size_t lane) {
+/// Of all camera rays of a pixel that landed on real surfaces, if these have one normal and the
+/// points are so close that bounds look nearly alike from all of them.
+std::optional<Vicinity> common_vicinity(const Search& search, std::size_t lane) {
     Vicinity common;
     int count = 0;
-    for (const Landings& landings : camera_rays) {
+    for (const Landings& landings : search.camera_rays) {
         if (!is_real(landings[lane])) continue;
         const Vicinity one = vicinity_of(landings[lane]);
         if (count++ == 0) common.normal = one.normal;
         common.position += one.position;
-        if (one.normal != common.normal) return {{}, {}, -1};
+        if (one.normal != common.normal) return std::nullopt;
     }
     common.position /= float(std::max(1, count));
-    for (const Landings& landings : camera_rays)
-        if (is_real(landings[lane]))
-            common.reach = std::max(
-                common.reach, glm::distance(common.position, vicinity_of(landings[lane]).position));
-    return common;
+    for (const Landings& landings : search.camera_rays) {
+        if (!is_real(landings[lane])) continue;
+        const float apart = glm::distance(common.position, vicinity_of(landings[lane]).position);
+        common.reach = std::max(common.reach, apart);
+    }
+    return common.reach <= search.shared_reach ? std::optional(common) : std::nullopt;
 }
 
 /// Cones that would send this share of an even sky's irradiance, or more, get all tries: a change
@@ -78,28 +91,17 @@ constexpr float least_share = 1.0f / 16;
 /// A pixel's part of a half.
 struct HalfOfPixel {
     Half& half;
-    StratifiedSet points;
+    StratifiedSet points{};
     float rounding = 0;  // one for all its rays
 };
 
 /// One pixel's search.
 struct PixelSearch {
-    PixelSearch(Search& s, std::size_t pixel)
-        : search(s), lane(pixel), surfaces(of_pixel(s.surfaces)), shadows(of_pixel(s.shadows)) {
-        const int tries = s.pass.settings.primary * s.counts.light;
-        run = s.pass.nets.run(key(), change_by_light,
-                              int(std::bit_ceil(unsigned(std::max(1, tries)))));
-    }
-    HalfOfPixel of_pixel(Half& half) const {
-        const int most = (search.pass.settings.primary * search.counts.cones + 1) / 2;
-        return {half, run_of(half.points, key().place, most), uniform(key(), half.dimension)};
-    }
-
     Search& search;
     std::size_t lane;
-    LightRun run;  // of its light tries
-    HalfOfPixel surfaces, shadows;
-    ChangeCones cones;
+    HalfOfPixel surfaces{search.surfaces}, shadows{search.shadows};
+    LightRun run{};  // of its light tries
+    ChangeCones cones{};
     float by_cones = 0;  // tries over the cones, on average
 
     const SampleKey& key() const { return search.pass.keys[lane]; }
@@ -124,7 +126,7 @@ void try_light(PixelSearch& pixel, const Landing& from, const LightSample& light
     t.from = &from;
     t.sums = &pixel.sums();
     t.direction = light.direction;
-    t.by_cones = pixel.by_cones * density;
+    t.cone_density = pixel.by_cones * density;
     t.light = light;
     t.knows_light = true;
     follow(pixel.search.shadows.rays, t, pixel.search.pass);
@@ -164,32 +166,45 @@ void try_cone(PixelSearch& pixel, const Landing& from, HalfOfPixel& part, int nu
     t.key = pixel.key();
     t.key.sample = std::uint32_t(number);
     t.direction = drawn.direction;
-    t.by_cones = pixel.by_cones * drawn.pdf;
+    t.cone_density = pixel.by_cones * drawn.pdf;
     follow(part.half.rays, t, pixel.search.pass);
 }
 
 /// One half of the tries over the cones: whole numbers of them, whose sum over a pixel's rays is
 /// rounded up or down at random to the right mean.
 void try_cones(PixelSearch& pixel, const Landing& from, HalfOfPixel& part) {
-    const float before = pixel.sums().cone_tries + part.rounding;
-    const int end = int(before + 0.5f * pixel.by_cones);
-    for (int number = int(before); number < end; ++number)
+    const float before = pixel.sums().cone_tries, after = before + 0.5f * pixel.by_cones;
+    for (int number = int(before + part.rounding); number < int(after + part.rounding); ++number)
         try_cone(pixel, from, part, number);
+}
+
+/// The pixel's random numbers.
+void begin(PixelSearch& pixel) {
+    const Search& search = pixel.search;
+    const int camera_rays = search.pass.settings.primary;
+    for (HalfOfPixel* part : {&pixel.surfaces, &pixel.shadows}) {
+        part->points = run_of(part->half.points, pixel.key().place,
+                              (camera_rays * search.counts.cones + 1) / 2);
+        part->rounding = uniform(pixel.key(), part->half.dimension);
+    }
+    pixel.run = light_run(search.pass, pixel.key(), change_by_light,
+                          std::max(1, camera_rays * search.counts.light));
 }
 
 void search_pixel(PixelSearch& pixel) {
     const Search& search = pixel.search;
-    const Vicinity common = common_vicinity(search.camera_rays, pixel.lane);
-    bool looked = false;
+    const std::optional<Vicinity> common = common_vicinity(search, pixel.lane);
+    bool looked = false, begun = false;
     for (std::size_t p = 0; p < search.camera_rays.size(); ++p) {
         const Landing& from = search.camera_rays[p][pixel.lane];
         if (!is_real(from)) continue;
         ++pixel.sums().camera_rays;
-        if (common.reach < 0)
+        if (!common)
             pixel.look_from(vicinity_of(from));
         else if (!std::exchange(looked, true))
-            pixel.look_from(common);
+            pixel.look_from(*common);
         if (pixel.cones.empty()) continue;
+        if (!std::exchange(begun, true)) begin(pixel);
         try_lights(pixel, from, search.first_ray + int(p));
         try_cones(pixel, from, pixel.surfaces);
         if (search.counts.light > 0) try_cones(pixel, from, pixel.shadows);
@@ -213,7 +228,7 @@ void add_changes(const TilePass& tile, std::span<const Landings> camera_rays, in
     Search search(tile, camera_rays, first_ray);
     for (std::size_t lane = 0; lane < packet_width; ++lane) {
         if (!any_real(camera_rays, lane)) continue;
-        PixelSearch pixel(search, lane);
+        PixelSearch pixel{search, lane};
         search_pixel(pixel);
     }
     follow_rest(search.shadows.rays, search.pass);

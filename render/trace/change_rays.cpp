@@ -19,7 +19,7 @@ RayPair rays_of(Tries tries, const SamplePass& pass) {
 /// Expected tries of both kinds there, per steradian: samples weighted by them are those of the
 /// balance heuristic.
 float all_tries(const ChangeRays& rays, const ChangeTry& t) {
-    return float(rays.light_tries) * t.light.pdf + t.by_cones;
+    return float(rays.light_tries) * t.light.pdf + t.cone_density;
 }
 
 /// Irradiance that the environment sends from there.
@@ -60,14 +60,15 @@ void exchange_surfaces(const ChangeRays& rays, Tries met, SamplePass& pass) {
     pass.rays.real_indirect += count(ways.against_real);
     for (std::size_t k = 0; k < met.size(); ++k)
         if (hits[k].distance <= behind.distance[k]) nearest |= 1U << k;
+    LightRuns runs;  // the lanes are those of no tile
     SamplePass mixed{pass.scene, pass.settings, pass.landings, keys,
-                     pass.sums,  pass.rays,     pass.nets,     pass.runs};
+                     pass.sums,  pass.rays,     pass.nets,     runs};
     const RadiancePacket sent = shade_virtual_hits(mixed, ways.against_virtual, hits, nearest);
     for (std::size_t k = 0; k < met.size(); ++k) {
         const ChangeTry& t = met[k];
         if (!((nearest >> k) & 1U)) continue;
         const bool open = behind.distance[k] == no_hit;
-        const float weight = glm::dot(t.from->normal, t.direction) / (0.5f * t.by_cones);
+        const float weight = glm::dot(t.from->normal, t.direction) / (0.5f * t.cone_density);
         narrow(t, pass);
         t.sums->hidden += double(weight);
         if (open) t.sums->add(&ChangeSums::direct, -light_of(rays, t));

@@ -2,7 +2,6 @@
 // make a packet; those that meet one wait for another packet, against real geometry.
 #pragma once
 
-#include "render/sample/light_nets.h"
 #include "render/trace/sample_pass.h"
 
 #include <array>
@@ -15,7 +14,7 @@ struct ChangeTry {
     ChangeSums* sums = nullptr;     // of its pixel
     SampleKey key;                  // its own random numbers
     glm::vec3 direction{0.0f};      // unit
-    float by_cones = 0;             // expected tries over the cones there, per steradian
+    float cone_density = 0;         // expected tries over the cones there, per steradian
     LightSample light;              // what the environment sends from there,
     bool knows_light = false;       // if it is known before
     SurfaceHit on_virtual;

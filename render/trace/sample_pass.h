@@ -8,6 +8,7 @@
 #include "render/trace/two_mode_sampler.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 namespace inlay {
@@ -31,7 +32,7 @@ enum SampleDimension : std::uint32_t {
 /// when it is first asked for.
 struct LaneRuns {
     std::array<LightRun, packet_width> run{};
-    std::uint32_t found = 0;  // lanes
+    std::array<int, packet_width> count{};  // of their samples; 0: not found yet
 };
 struct LightRuns {
     LaneRuns real, on_virtual;
@@ -60,14 +61,14 @@ inline LightRun light_run(const SamplePass& pass, const SampleKey& key, std::uin
 }
 
 /// The environment sample of a lane that landed on `kind`, of the `count` that its pixel takes
-/// there: as many in every call of a tile.
+/// there.
 inline const LightSample& light_sample(const SamplePass& pass, std::size_t lane, LandingKind kind,
                                        int count) {
     LaneRuns& runs = kind == LandingKind::on_virtual ? pass.runs.on_virtual : pass.runs.real;
     const SampleKey& key = pass.keys[lane];
-    if (!((runs.found >> lane) & 1U)) {
+    if (runs.count[lane] != count) {
         runs.run[lane] = light_run(pass, key, light_direction, count);
-        runs.found |= 1U << lane;
+        runs.count[lane] = count;
     }
     return pass.nets.at(runs.run[lane], int(key.sample));
 }

@@ -44,8 +44,12 @@ void gather_light(const TilePass& pass, std::span<const Landings> camera_rays, i
     if (!both_modes) add_changes(pass, camera_rays, first_ray);
     for (const Landings& landings : camera_rays) {
         const int first_sample = first_ray++ * pass.settings.secondary;
-        const Landings lit = both_modes ? landings : only(LandingKind::on_virtual, landings);
-        if (both_modes || any_landing(lit)) add_samples(pass, lit, first_sample);
+        if (both_modes) {
+            add_samples(pass, landings, first_sample);
+            continue;
+        }
+        const Landings on_virtual = only(LandingKind::on_virtual, landings);
+        if (any_landing(on_virtual)) add_samples(pass, on_virtual, first_sample);
     }
 }
 

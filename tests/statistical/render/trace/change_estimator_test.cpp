@@ -13,8 +13,10 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// All pixels see the same point.
-const Lens point_lens = telescope(4, 4);
+struct Eye {
+    Lens lens = telescope(4, 4);  // all pixels see the same point
+    SamplingSettings settings{};
+};
 
 SceneObject real_patch() { return mesh_object(floor_mesh(4e-3f), Diffuse{Rgb(0.5f)}, true); }
 
@@ -26,13 +28,13 @@ struct Changes {
 
 /// Frames, not pixels, are the independent values: those of a frame share their light nets.
 Changes changes_of(const PlacedScene& scene, const EnvironmentSampler& light, Estimator estimator,
-                   int frames) {
-    SamplingSettings settings;
+                   int frames, const Eye& eye = {}) {
+    SamplingSettings settings = eye.settings;
     settings.estimator = estimator;
     Changes changes;
     for (int frame = 0; frame < frames; ++frame) {
         const NoisyLayers layers =
-            sample_scene(scene, light, point_lens, from_the_side(), settings, std::uint32_t(frame))
+            sample_scene(scene, light, eye.lens, from_the_side(), settings, std::uint32_t(frame))
                 .layers;
         double direct = 0, indirect = 0, e_r = 0;
         for (std::size_t i = 0; i < layers.m.pixels.size(); ++i) {
@@ -112,6 +114,33 @@ TEST(DifferenceForm, AgreesWithTheTwoModesWhateverTheObjectsAndTheLight) {
             EXPECT_TRUE(agree(apart.indirect, together.indirect)) << c.name;
             EXPECT_TRUE(agree(apart.e_r, together.e_r)) << c.name;
         }
+    }
+}
+
+/// Pixels of .1 m: in some of them the camera's rays land on real and on virtual surfaces, on a
+/// floor and on a table of the same normal above it, or further apart than the balls are wide; and
+/// some real surfaces only the rays meet that look for silhouettes.
+TEST(DifferenceForm, AgreesWherePixelsSeeMoreThanAPoint) {
+    const Diffuse chalk{Rgb(0.7f, 0.5f, 0.3f)};
+    std::vector<SceneObject> objects{
+        mesh_object(floor_mesh(3), chalk, true),
+        mesh_object(quad({-0.1f, 0.25f, 0.3f}, {0.45f, 0, 0}, {0, 0, -0.5f}), chalk, true),
+        sphere_object({0.1, 0.1, -0.35}, 0.1f, chalk), sphere_object({0, 0.35, 0.1}, 0.1f, chalk)};
+    for (int i = 0; i < 6; ++i)
+        objects.push_back(sphere_object({0.1 * i - 0.2, 0.02, 0.3}, 0.015f, chalk));
+    const PlacedScene scene(objects);
+    const EnvironmentSampler light =
+        environment_of(lobe_map(glm::normalize(glm::dvec3(1, 2, 0.5)), 10, 0.2f, Rgb(4, 3, 2)));
+    SamplingSettings usual, few, many;
+    few.primary = 3, few.secondary = 2, few.virtual_repeats = 1, few.coverage = 0;
+    many.primary = 10, many.secondary = 1, many.virtual_repeats = 1, many.coverage = 0;
+    for (const SamplingSettings& settings : {usual, few, many}) {
+        const Eye eye{lens_of(8, 8, 20), settings};
+        const Changes apart = changes_of(scene, light, Estimator::difference, 150, eye);
+        const Changes together = changes_of(scene, light, Estimator::two_mode, 150, eye);
+        EXPECT_TRUE(agree(apart.direct, together.direct)) << settings.primary;
+        EXPECT_TRUE(agree(apart.indirect, together.indirect)) << settings.primary;
+        EXPECT_TRUE(agree(apart.e_r, together.e_r)) << settings.primary;
     }
 }
 

@@ -184,5 +184,15 @@ TEST(EffectPlan, ExplainsEveryEffectAndEveryPass) {
     EXPECT_THAT(explain(plan_of(VirtualScene{})), Not(HasSubstr("pass ")));
 }
 
+TEST(EffectPlan, SaysWhereLightIsKept) {
+    SceneFacts facts = plan_of(one(glossy)).facts;
+    EXPECT_THAT(explain(plan_of(facts)), Not(HasSubstr("kept on the model")));
+    facts.light_kept = true;
+    EXPECT_THAT(explain(plan_of(facts)), HasSubstr("kept on the model"));
+    SceneFacts nothing = plan_of(VirtualScene{}).facts;
+    nothing.light_kept = true;  // and nothing to read it
+    EXPECT_THAT(explain(plan_of(nothing)), Not(HasSubstr("kept on the model")));
+}
+
 }  // namespace
 }  // namespace inlay

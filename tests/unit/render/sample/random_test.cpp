@@ -42,7 +42,15 @@ TEST(StratifiedPair, EveryPartOfTheKeyChangesTheNumbers) {
     EXPECT_EQ(stratified_pair(key, 0), stratified_pair(key, 0));
 }
 
-TEST(SharedPair, NeighborsAreSpreadTogether) {
+TEST(RunOf, PixelsFollowEachOtherInPowersOfTwo) {
+    const StratifiedSet all = frame_set({1, 2, 0, 0}, 3);
+    EXPECT_EQ(run_of(all, 2, 5).at(1), all.at(17));  // 5 points take the room of 8
+    EXPECT_EQ(run_of(all, 0, 1).at(7), all.at(7));
+    EXPECT_EQ(run_of(all, 1U << 31, 4).at(3), all.at(3));  // after 2^32 points the first again
+    EXPECT_EQ(frame_set({1, 2, 9, 8}, 3).at(4), all.at(4));
+}
+
+TEST(RunOf, NeighborsAreSpreadTogether) {
     for (const int per_pixel : {1, 4, 16}) {
         for (const std::uint32_t pixels : {4u, 16u, 64u}) {
             const int points = int(pixels) * per_pixel;

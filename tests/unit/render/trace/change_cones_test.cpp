@@ -60,6 +60,36 @@ TEST(ChangeCones, DirectionsTowardsTheSpheresAboveTheHorizonAllHaveADensity) {
     }
 }
 
+/// Directions from points about the one that the cones belong to, towards what lies above theirs.
+TEST(ChangeCones, HoldWhatEveryPointWithinReachSees) {
+    for (const auto& spheres : hard_bounds()) {
+        for (const float reach : {1e-3f, 0.05f, 0.5f}) {
+            ChangeCones cones;
+            find_cones(spheres, glm::vec3(0), up, reach, cones);
+            for (std::uint32_t i = 0; i < 2000; ++i) {
+                const SampleKey key{4, 0, i, 0};
+                const BoundingSphere& s = spheres[i % spheres.size()];
+                const auto in_ball = [&](std::uint32_t dimension) {
+                    return glm::vec3(uniform(key, dimension), uniform(key, dimension + 1),
+                                     uniform(key, dimension + 2)) *
+                               2.0f -
+                           1.0f;
+                };
+                glm::vec3 offset = in_ball(0), step = in_ball(3);
+                if (i % 2 == 0) {  // on the rim of what the farthest point sees
+                    offset = glm::normalize(offset);
+                    step = -offset;
+                }
+                if (glm::dot(offset, offset) > 1.0001f || glm::dot(step, step) > 1.0001f) continue;
+                const glm::vec3 way = s.centre + s.radius * offset - reach * step;
+                if (!(way.y > 0)) continue;
+                EXPECT_GT(pdf_cones(cones, glm::normalize(way)), 0) << reach;
+                EXPECT_TRUE(may_hold(cones, glm::normalize(way))) << reach;
+            }
+        }
+    }
+}
+
 /// A direction on the rim of every cone, all around: also where two cones nearly share their axis,
 /// so that the one that holds both is hardly larger.
 TEST(ChangeCones, TheConeAboutAllHoldsTheirRims) {
