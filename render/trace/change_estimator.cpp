@@ -20,7 +20,7 @@ struct Half {
     StratifiedSet points;       // of all pixels
 };
 
-/// A quarter of the smallest bound: its cone grows by half at most.
+/// A quarter of the smallest bound's radius: from afar its cone grows by 9/16 at most.
 float largest_shared_reach(const std::vector<BoundingSphere>& bounds) {
     float smallest = 0;
     for (const BoundingSphere& sphere : bounds)

@@ -1,4 +1,4 @@
-// FloatingPointTraps: invalid operations, divisions by zero and overflows become signals.
+// FloatingPointTraps: invalid operations, divisions by zero and overflows end the program.
 #pragma once
 
 #include <cfenv>
@@ -10,9 +10,9 @@ namespace inlay::test {
 /// scope: they may compute with lanes that nobody reads.
 class FloatingPointTraps {
 public:
-    FloatingPointTraps() {
-        std::feclearexcept(FE_ALL_EXCEPT);
-        before_ = feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+    explicit FloatingPointTraps(int kinds = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW) {
+        std::feclearexcept(FE_ALL_EXCEPT);  // the x87 unit would trap on what it still holds
+        before_ = feenableexcept(kinds);
     }
     ~FloatingPointTraps() {
         fedisableexcept(FE_ALL_EXCEPT);

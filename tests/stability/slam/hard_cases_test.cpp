@@ -3,6 +3,7 @@
 #include "recordings/base/parallel.h"
 #include "slam/mapping/advance_slam.h"
 #include "slam/mapping/depth_scale.h"
+#include "tests/support/floating_point_traps.h"
 #include "tests/unit/slam/analytic_room.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include <cfenv>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <string>
 
 namespace inlay {
@@ -17,13 +19,13 @@ namespace {
 
 class SlamHardCases : public ::testing::Test {
 protected:
-    /// One thread, so that the trap covers all of the work.
+    /// One thread, so that the traps cover all of the work.
     void SetUp() override {
         set_thread_count(1);
-        ::feenableexcept(FE_INVALID | FE_DIVBYZERO);
+        traps.emplace(FE_INVALID | FE_DIVBYZERO);
     }
     void TearDown() override {
-        ::fedisableexcept(FE_INVALID | FE_DIVBYZERO);
+        traps.reset();
         set_thread_count(0);
     }
 
@@ -33,6 +35,9 @@ protected:
 
     SlamSettings settings;
     SlamState state = start_slam(settings);
+
+private:
+    std::optional<test::FloatingPointTraps> traps;
 };
 
 Pose swaying(int i) {

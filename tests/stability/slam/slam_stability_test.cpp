@@ -3,6 +3,7 @@
 #include "slam/mapping/advance_slam.h"
 #include "slam/mapping/reconstruct_recording.h"
 #include "slam/mesh/extract_mesh.h"
+#include "tests/support/floating_point_traps.h"
 #include "tests/unit/slam/analytic_room.h"
 
 #include <gtest/gtest.h>
@@ -17,18 +18,10 @@
 namespace inlay {
 namespace {
 
-/// Ends the test by a signal where an operation makes NaN or divides by zero.
-class TrapInvalid {
-public:
-    TrapInvalid() {
-        ::feclearexcept(
-            FE_ALL_EXCEPT);  // of before: the x87 unit would trap on what it still holds
-        ::feenableexcept(FE_INVALID | FE_DIVBYZERO);
-    }
-    ~TrapInvalid() { ::fedisableexcept(FE_INVALID | FE_DIVBYZERO); }
-};
+/// Makes NaN, or divides by zero.
+constexpr int trapped = FE_INVALID | FE_DIVBYZERO;
 
-/// One thread, so that the trap covers all of the work.
+/// One thread, so that the traps cover all of the work.
 class SlamTraps : public ::testing::Test {
 protected:
     void SetUp() override { set_thread_count(1); }
@@ -71,7 +64,7 @@ RgbdFrame damaged_frame(int index, const Pose& pose) {
 }
 
 TEST_F(SlamTraps, ABadDepthValueNeverReachesTheModel) {
-    const TrapInvalid trap;
+    const test::FloatingPointTraps traps(trapped);
     const SlamSettings settings;
     SlamState state = start_slam(settings);
     for (int i = 0; i < 6; ++i) {
@@ -98,7 +91,7 @@ TEST_F(SlamTraps, ABadDepthValueNeverReachesTheModel) {
 }
 
 TEST_F(SlamTraps, FramesWithoutDepthAreLostAndHarmless) {
-    const TrapInvalid trap;
+    const test::FloatingPointTraps traps(trapped);
     const SlamSettings settings;
     SlamState state = start_slam(settings);
     RgbdFrame empty = test::room_frame(0, Pose{});
@@ -117,7 +110,7 @@ TEST_F(SlamTraps, FramesWithoutDepthAreLostAndHarmless) {
 }
 
 TEST_F(SlamTraps, ASinglePlaneMovesNothingThatItCannotTell) {
-    const TrapInvalid trap;
+    const test::FloatingPointTraps traps(trapped);
     const SlamSettings settings;
     SlamState state = start_slam(settings);
     RgbdFrame frame = test::room_frame(0, Pose{});
@@ -137,7 +130,7 @@ TEST_F(SlamTraps, ASinglePlaneMovesNothingThatItCannotTell) {
 }
 
 TEST_F(SlamTraps, ALostCameraIsFoundWhenAnOldViewReturns) {
-    const TrapInvalid trap;
+    const test::FloatingPointTraps traps(trapped);
     const SlamSettings settings;
     SlamState state = start_slam(settings);
     for (int i = 0; i < 25; ++i) {
@@ -162,7 +155,7 @@ TEST_F(SlamTraps, ALostCameraIsFoundWhenAnOldViewReturns) {
 }
 
 TEST_F(SlamTraps, ScenesFarFromTheOriginAreTrackedAsWell) {
-    const TrapInvalid trap;
+    const test::FloatingPointTraps traps(trapped);
     const SlamSettings settings;
     SlamState state = start_slam(settings);
     const Pose far = test::posed({1, -2, 0.5}, {100, -50, 80});

@@ -5,10 +5,10 @@
 #include "render/filter/environment_bandwidth.h"
 #include "render/filter/filter_layers.h"
 #include "tests/support/filter_scenes.h"
+#include "tests/support/floating_point_traps.h"
 
 #include <gtest/gtest.h>
 
-#include <cfenv>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -21,21 +21,12 @@ using namespace test;
 constexpr double spacing = 0.02;  // m
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// While it lives, invalid operations, divisions by zero and overflows end the program. Single
-/// threaded, since other threads have their own traps.
-class FloatTraps {
-public:
-    FloatTraps() {
-        set_thread_count(1);
-        std::feclearexcept(FE_ALL_EXCEPT);
-        feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
-    }
-    ~FloatTraps() {
-        fedisableexcept(FE_ALL_EXCEPT);
-        set_thread_count(0);
-    }
-    FloatTraps(const FloatTraps&) = delete;
-    FloatTraps& operator=(const FloatTraps&) = delete;
+/// On one thread, since other threads have their own traps.
+struct FloatTraps {
+    FloatTraps() { set_thread_count(1); }
+    ~FloatTraps() { set_thread_count(0); }
+
+    FloatingPointTraps traps;
 };
 
 /// Every value is finite and between 0 and `largest`.
