@@ -10,8 +10,8 @@
 namespace inlay {
 namespace {
 
-/// Share of what is asked for that a choice aims at: frames differ from those before them. The next
-/// number of samples may take a tenth of the time more, so that less of it would go unused.
+/// Shares of what is asked for that a choice aims at: frames differ from those before them. That of
+/// time is nearer to 1, since four samples fewer already leave a part of it unused.
 constexpr double time_aim = 0.98, error_aim = 0.95;
 /// Weight of a new frame: half of what is known is two frames old.
 constexpr double time_rate = 0.3;

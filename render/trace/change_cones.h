@@ -16,7 +16,8 @@ inline constexpr int most_change_cones = 64;
 
 /// Circular cones about the bounding spheres above a surface's horizon, each sampled evenly in
 /// solid angle and chosen in proportion to its solid angle times its largest cosine. Spheres that
-/// hold the point or touch it are seen in the hemisphere, which is sampled with the cosine.
+/// hold or touch a point that the cones are for are seen in the hemisphere, which is sampled with
+/// the cosine.
 struct ChangeCones {
     int count = 0;         // circular ones
     float hemisphere = 0;  // share of the samples over the hemisphere, 0..1
@@ -36,9 +37,9 @@ struct ChangeCones {
 };
 
 /// Sets the cones of `spheres` as seen from all points within `reach` (m, >= 0) of `position`,
-/// where rays start, on a surface with the unit normal `normal`. Spheres below the horizon, and
-/// those that are points seen from afar, have none. Throws Error for more than most_change_cones of
-/// them.
+/// where rays start, on a surface with the unit normal `normal`. Spheres of which no part may stand
+/// above the horizon of such a point, and those that are points seen from all of them, have none.
+/// Throws Error for more than most_change_cones of them.
 void find_cones(std::span<const BoundingSphere> spheres, const glm::vec3& position,
                 const glm::vec3& normal, float reach, ChangeCones& cones);
 
